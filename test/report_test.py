@@ -75,6 +75,21 @@ class Pages(unittest.TestCase):
                 high = min(one[3], other[3]) - max(one[1], other[1])
                 # lines of small type have boxes that are higher than their letters
                 self.assertFalse(wide > 1.5 and high > 3.5, (page, one, other))
+        if paper == "a4":
+            self.assertGreater(min(self.filled(printed)[:-1], default=1), 0.5, page)
+
+    def filled(self, printed):
+        """How much of each sheet's height there is something on, from 0 to 1."""
+        subprocess.run(["pdftoppm", "-r", "20", "-gray", printed, printed.with_suffix("")], check=True, timeout=patient(60))
+        shares = []
+        for sheet in sorted(printed.parent.glob("report-*.pgm")):
+            _, size, _, pixels = sheet.read_bytes().split(b"\n", 3)
+            width, height = map(int, size.split())
+            rows = [row for row in range(height) if min(pixels[row * width:(row + 1) * width]) < 200]
+            margin = height * 14 / 297
+            shares.append((max(rows, default=0) - margin) / (height - 2 * margin))
+            sheet.unlink()
+        return shares
 
 
 class Reports(Pages):
@@ -131,7 +146,7 @@ class Reports(Pages):
         # the recorded trial, in a strip for each quantity
         viewer = dom[dom.index('class="viewer"'):]
         self.assertEqual(viewer.count("<canvas"), 4)
-        self.assertIn("No person took part.", dom[dom.index("In words</h2>"):])
+        self.assertIn("No person took part.", dom[dom.index("Methods in words</h2>"):])
         for paper in ("a4", "letter"):
             self.on_paper(session + "/report.html", paper)
 

@@ -161,8 +161,11 @@ class Statistics(unittest.TestCase):
         self.assertEqual([path.name for path in written], ["analysis.py", "analysis.R", "analysis-trials.csv"])
         found = self.check_both(self.folder / "figures", alone=True)
         self.assertEqual(found["grip_N", "n"], [20, 600])
-        names = {"grip_N", "Intercept", "surface: it's silk - sandpaper", "mass_g, for each g"}
-        self.assertEqual({name for _, name in found} - {"n", "sd"}, names - {"grip_N"})
+        both = "surface: it's silk - sandpaper x mass_g, for each g"
+        names = {"Intercept", "surface: it's silk - sandpaper", "mass_g, for each g", both}
+        self.assertEqual({name for _, name in found} - {"n", "sd"}, names)
+        estimate, low, high = found["grip_N", both]  # none was planted
+        self.assertLess(abs(estimate), 2 * (high - low) / 1.96)
         for name, true in (("surface: it's silk - sandpaper", STEP), ("mass_g, for each g", SLOPE)):
             estimate, low, high = found["grip_N", name]
             self.assertLess(abs(estimate - true), 2 * (high - low) / 1.96)
@@ -174,6 +177,24 @@ class Statistics(unittest.TestCase):
         np.testing.assert_allclose(found["grip_N", "mass_g, for each g"][0], slopes[0], rtol=1e-4)
         np.testing.assert_allclose(found["grip_N", "surface: it's silk - sandpaper"][0], slopes[1], rtol=1e-4)
         np.testing.assert_allclose(found["grip_N", "sd"], [2, 1.5], rtol=0.4)
+
+    def test_finds_an_interaction_that_was_planted(self):
+        table = simulated(4)
+        table["grip_N"] += 0.01 * (table["mass_g"] - np.mean(MASSES)) * (table["surface"] != "sandpaper")
+        sessions(self.folder, {"trials": as_trials(table)})
+        figures.write_analyses(figures.read(self.folder), self.folder / "figures")
+        estimate, low, high = self.check_both(self.folder / "figures")[
+            "grip_N", "surface: it's silk - sandpaper x mass_g, for each g"
+        ]
+        self.assertLess(abs(estimate - 0.01), 2 * (high - low) / 1.96)
+        self.assertGreater(low, 0)
+
+    def test_an_interaction_that_trials_do_not_tell_is_not_fitted(self):
+        table = simulated(1)
+        table = table[(table["surface"] == "sandpaper") | (table["mass_g"] == 400)]
+        sessions(self.folder, {"trials": as_trials(table)})
+        figures.write_analyses(figures.read(self.folder), self.folder / "figures")
+        self.assertIn('"grip_N": ["surface + mass_g"],', (self.folder / "figures" / "analysis.py").read_text())
 
     def test_lifts_and_missing_values(self):
         trials = self.planted().rename(columns={"grip_N": "reaction_s"})

@@ -16,17 +16,18 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from drawn import rehearsed
+from drawn import rehearsed, with_tables
 from scipy import stats
 
 import dihaptic as dh
 from dihaptic import figures
 from dihaptic.figures import saving
 from dihaptic.reports import page as pages
-from dihaptic.reports import write_page
+from dihaptic.reports import sections, write_page
+from dihaptic.reports.models import notes_on_models
 from dihaptic.reports.page import Page, in_short
-from dihaptic.reports.sections import shared_windows
-from dihaptic.reports.text import in_words
+from dihaptic.reports.results import results_of, shared_windows, warnings_of, with_spreads
+from dihaptic.reports.text import methods_of
 
 #: Fewer reaches of fitts-law: its distances and widths once.
 FITTS = [("practice, repeats: 1", "practice, repeats: 1"), ("repeats: 8", "repeats: 2")]
@@ -96,8 +97,11 @@ class Reports(unittest.TestCase):
             self.assertEqual(re.findall(r">([^<]+)</text>", svg), re.findall(r">([^<]+)</text>", own))
             caption = (self.fitts / "figures" / "captions.txt").read_text()
             self.assertIn(name + ": ", caption)
-        for heading in ("Quality of the data", "By condition", "In words"):
-            self.assertIn(heading, found.text)
+        headings = re.findall(r"<h2[^>]*>([^<]+)</h2>", self.page)
+        wanted = ["Result", "By condition", "Quality of the data", "Over trials", "Methods in words"]
+        self.assertEqual([heading for heading in headings if heading in wanted], wanted)
+        self.assertNotIn("Learning", headings)  # nobody learns here
+        self.assertLess(found.text.index("Movement time (mean"), found.text.index("Measures by"))
         self.assertEqual(self.page.count("recorded by"), 1)  # where the numbers are from is said once
 
     def test_its_numbers_are_those_of_the_tables(self):
@@ -237,9 +241,122 @@ class Reports(unittest.TestCase):
             self.assertEqual(figures.read(folder).people, ["1/sim-001", "2/sim-001"])
 
     def test_words_are_those_of_a_paper(self):
-        methods, results = in_words(figures.read(self.fitts), {"who": "Simulated."})
+        data = figures.read(self.fitts)
+        methods, results = methods_of(data, {"who": "Simulated."}), results_of(data)
         self.assertIn("The factor distance had 3 levels: 40, 80 and 160 mm.", " ".join(methods))
-        self.assertRegex(" ".join(results), r"Movement time \(mean ± SD over people\): 0\.\d+ ± 0\.\d+ s \(40 mm\), .* \(160 mm\); n = 3 people")
+        wanted = r"Movement time \(mean ± SD over people\): 0\.\d+ ± 0\.\d+ s \(40 mm\), .* \(160 mm\); n = 3 people"
+        self.assertRegex(" ".join(results), wanted)
+        self.assertRegex(results[0], r"^Movement time over the index of difficulty \(ID\): .* bit/s\.$")
+        for text in results[1:4]:  # with as many decimals everywhere
+            self.assertEqual(len({len(decimals) for decimals in re.findall(r"\d\.(\d+)", text)}), 1, text)
+
+    def test_perturbations_have_a_sentence_each_up_to_six(self):
+        data = figures.read(self.fitts)
+        trials = data.table("trials").assign(perturbation="a + b")
+        data = with_tables(self.fitts, trials=trials)
+        rows = [["a", "", "curl field of 13 N*s/m"], *([f"b{i}", "", "mass of 1 kg"] for i in range(7))]
+        text = methods_of(data, {"perturbations": {"columns": ["name", "in", "what"], "rows": rows}})[-1]
+        self.assertTrue(text.startswith("Perturbation a (blocks practice and reaches): curl field of 13 N\u00a0s/m."), text)
+        self.assertEqual(text.count("Perturbation "), 6)
+        self.assertTrue(text.endswith("The table has 2 further ones."), text)
+
+    def test_a_factor_that_goes_with_another_one_is_not_averaged_over(self):
+        trials = figures.read(self.fitts).table("trials")
+        trials["width_mm"] = trials["distance_mm"] / 5
+        self.assertNotIn("averaged over", " ".join(results_of(with_tables(self.fitts, trials=trials))))
+
+    def test_what_the_experiment_set_is_no_result(self):
+        trials = figures.read(self.fitts).table("trials")
+        trials["reaction_time_s"] = trials["distance_mm"] / 100
+        data = with_tables(self.fitts, trials=trials)
+        self.assertEqual(data.stimuli, ["reaction_time_s"])
+        self.assertNotIn("Reaction time", " ".join(results_of(data)))
+        self.assertIn("Reaction time was set by the experiment.", methods_of(data, {}))
+
+    def test_captions_promise_only_intervals_that_are_drawn(self):
+        page = write_page([self.fitts / "sim-001", self.fitts / "sim-002"], self.here / "of-one-each")
+        captions = (page.parent / "figures" / "captions.txt").read_text()
+        for line in captions.splitlines():
+            self.assertNotIn("95 %", line)
+        self.assertGreater(captions.count("of one each, so that there is no interval"), 1)
+        self.assertNotIn("with 95 % intervals", self.read(page.read_text()).text)
+
+    def test_a_value_that_was_never_asked_for_is_not_missing(self):
+        trials = figures.read(self.fitts).table("trials")
+        trials.loc[trials.distance_mm == 40, "peak_speed_m_s"] = np.nan
+        trials["not_measured"] = np.where(trials.distance_mm == 40, "peak_speed: no channel", "")
+        trials.loc[trials.index[-1], "not_measured"] = "peak_speed: too short"
+        trials.loc[trials.index[-1], "peak_speed_m_s"] = np.nan
+        page = Page("", "", "")
+        sections._measures(page, with_tables(self.fitts, trials=trials))
+        self.assertNotIn("no channel", page.html())
+        self.assertIn("too short (1)", page.html())
+
+    def test_medians_of_lifts_are_called_so(self):
+        page = Page("", "", "")
+        sections._lifts(page, figures.read(self.lift))
+        self.assertIn("<th>median of</th>", page.html())
+
+    def test_warnings_stand_with_the_result(self):
+        data = figures.read(self.fitts)
+        self.assertEqual(warnings_of(data, {}), [])
+        trials = data.table("trials")
+        again = trials[trials.block == "reaches"].assign(attempt=2)
+        data = with_tables(self.fitts, trials=pd.concat([trials, again], ignore_index=True))
+        data.sessions[0].info["convergence"] = {"missed": 7}
+        texts = warnings_of(data, {"not_measured": "the pull"})
+        for words in ("the pull", "In 7 ticks", "trials (67 %) were repeated"):
+            self.assertTrue(any(words in text for text in texts), (words, texts))
+
+    def test_what_simulated_people_lack_is_said_once_with_its_remedy(self):
+        data = figures.read(self.fitts)
+        said = ["e.yaml:7: warning: ask: is a rating, which simulated people lack: arbitrary. Do not use it.",
+                "e.yaml:9: warning: left: asks about 'rough': simulated people do not. Do not use it.",
+                "e.yaml: warning: a body starts inside another. Move it."]
+        for sitting in data.sittings:
+            sitting.session.info["notes"] = said
+        self.assertEqual(warnings_of(data, {}), [
+            "'ask' is a rating, which simulated people lack: arbitrary.",
+            "'left' asks about 'rough': simulated people do not. Do not use it.",
+        ])
+
+
+class Models(unittest.TestCase):
+    class Told:
+        """Data with two tables."""
+
+        def __init__(self, fits, adaptation):
+            self.tables = {"fits": fits, "adaptation": adaptation}
+
+        def has(self, name):
+            return name in self.tables
+
+        def table(self, name):
+            return self.tables[name]
+
+    def notes(self, curves=1.0, **parameters):
+        people = ["S01", "S02", "S03", "S04"]
+        good = {"A_slow": 0.99, "B_slow": 0.02, "A_fast": 0.6, "B_fast": 0.2, "A": 0.9, "B": 0.1}
+        fits = pd.DataFrame({"person": people, **{k: [v] * 4 for k, v in good.items()}, **parameters})
+        values = np.tile([0.0, 1, 2, 3], 4)
+        adaptation = pd.DataFrame({"person": np.repeat(people, 4), "session": "s", "round": np.nan, "compensation": values})
+        adaptation["two_rate"] = adaptation["single_rate"] = 1.5 + curves * (values - 1.5)
+        return notes_on_models(self.Told(fits, adaptation))
+
+    def test_good_ones_are_not_spoken_of(self):
+        self.assertEqual(self.notes(), "")
+
+    def test_parameters_at_their_bounds_are_counted(self):
+        self.assertIn("in 3 of 4 people fast learning lies at its bound 1", self.notes(B_fast=[1, 1, 0.5, 1]))
+        self.assertIn("in 1 of 4 people slow retention lies at its bound 1", self.notes(A_slow=[0.99, 0.99, 1, 0.99]))
+        self.assertIn("in 4 of 4 people learning of the single rate lies at its bound 0", self.notes(B=0))
+
+    def test_two_processes_that_are_one_are_counted(self):
+        self.assertIn("in 2 of 4 people slow and fast retention are equal", self.notes(A_fast=[0.99, 0.5, 0.999, 0.6]))
+
+    def test_curves_that_explain_little_are_counted(self):
+        self.assertIn("in 4 of 4 people the two-rate model fits no better than a constant", self.notes(0.0))
+        self.assertIn("in 4 of 4 people the two-rate model explains less than 20 %", self.notes(0.05))
 
 
 class Windows(unittest.TestCase):
@@ -276,6 +393,20 @@ class Pages(unittest.TestCase):
         expected = {0.123456: "0.123", 12.3456: "12.3", 1234.56: "1235", 5.0: "5", 1e-9: "0", 2.5e-5: "2.50e-05", 1e7: "1.00e+07",
                     -0.98765: "-0.988", np.nan: "-", None: "-", True: "yes", "80 g": "80 g"}  # fmt: skip
         self.assertEqual({value: in_short(value) for value in expected}, expected)
+
+    def test_decimals_are_alike_in_a_sentence(self):
+        means, spreads = pd.Series([0.1857, 0.3651, 0.7304]), pd.Series([0.0252, 0.0498, 0.1101])
+        self.assertEqual(with_spreads(means, spreads), ["0.186 ± 0.025", "0.365 ± 0.050", "0.730 ± 0.110"])
+        self.assertEqual(with_spreads(pd.Series([1, 1.5, 2]), pd.Series([0, 0, 0])), ["1.00", "1.50", "2.00"])
+        self.assertEqual(with_spreads(pd.Series([-0.001]), pd.Series([1.0])), ["0.0 ± 1.0"])
+
+    def test_a_table_that_is_too_wide_for_paper_is_in_pieces(self):
+        page = Page("", "", "")
+        page.table(pd.DataFrame([["a", *range(16)]], columns=["of", *(f"c{i}" for i in range(16))]), keys=1)
+        heads = [re.findall(r"<th[^>]*>([^<]+)</th>", piece) for piece in page.html().split("<table")[1:]]
+        self.assertEqual([len(head) for head in heads], [8, 8, 3])
+        self.assertEqual([head[0] for head in heads], ["of"] * 3)
+        self.assertEqual([name for head in heads for name in head[1:]], [f"c{i}" for i in range(16)])
 
     def test_a_page_of_nothing_has_no_empty_tables(self):
         page = Page("title", "", "")

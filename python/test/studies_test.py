@@ -8,11 +8,13 @@ import shlex
 import shutil
 import tempfile
 import unittest
+import unittest.mock
 
 import pandas as pd
 from small_study import TRIALS, dihaptic, write
 
 import dihaptic as dh
+from dihaptic import figures
 
 FACTS = ["--age", "24", "--fact", "vision=normal", "--fact", "years=3"]
 CONCEALED = "allocation: { method: in_turn, seed: 3, concealed: yes }\n"
@@ -325,6 +327,14 @@ class Studies(Case):
         edit(self.file, "title:", "resuming: { complete: 0.5 }\ntitle:")
         study = dh.Study(self.file)
         self.assertEqual(study.session("S04", "day1").folder, broken)
+        # so it does in figures and reports, as if it was not a simulated person's
+        with unittest.mock.patch("dihaptic.figures.sessions._stands_in", return_value=False):
+            (session,) = figures.read(self.folder / "sessions/S04").sessions
+            self.assertEqual(session.folder.resolve(), broken.resolve())
+            edit(self.file, "complete: 0.5", "complete: 0.9")
+            with self.assertRaisesRegex(dh.Error, "contains no completed sessions"):
+                figures.read(self.folder / "sessions/S04")
+            edit(self.file, "complete: 0.9", "complete: 0.5")
         task = broken / "task.yaml"
         whole = task.read_text()
         for old, new in (

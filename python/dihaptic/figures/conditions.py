@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from ..errors import NotThere, error
 from .data import ASIDE, SITTING, Data, checked_list, sitting_columns
-from .means import means_with_intervals
+from .means import intervals, means_with_intervals
 from .saving import Plan
 from .style import COLOURS, MARKERS, WIDTHS, canvas, corner, fit_names, legend_above, same_limits, styled, wrapped
 from .words import counted, label, level, words_of
@@ -72,6 +72,12 @@ def each_in_conditions(trials: pd.DataFrame, measure: str, by: list[str], single
         return known[["person", *by, measure]].rename(columns={measure: "value"}).assign(n=1, of="person")
     people = known.groupby([*by, "person"], dropna=False, sort=True)[measure].agg(value="mean", n="count")
     return people.reset_index().assign(of="person")
+
+
+def averaged_over(data: Data, trials: pd.DataFrame, by: list[str]) -> list[str]:
+    """The factors whose levels differ among trials that have the same levels of the columns `by`."""
+    same = trials.groupby(by, dropna=False) if by else trials.assign(all="").groupby("all")
+    return [name for name in data.factors if name not in by and same[name].nunique().max() > 1]
 
 
 def check_column(table: pd.DataFrame, name: str) -> None:
@@ -296,6 +302,7 @@ def _plans_of(data: Data, table: str, measures: list[str], name: str, design: di
     if not measures or trials.empty:
         return
     people = trials["person"].nunique()
+    by_columns = list(design.values())
     units = data.table("trials").attrs.get("units", {})
     panels = trials[design["panel"]].nunique() if "panel" in design else 1
     each = max(1, _MOST_PANELS // panels) if panels > 1 else 6
@@ -305,10 +312,12 @@ def _plans_of(data: Data, table: str, measures: list[str], name: str, design: di
         number = f"-{first // each + 1}" if len(measures) > each else ""
         dots = "Dots are trials" if people == 1 else "Dots are people's means over trials, joined over conditions"
         over = "trials" if people == 1 else "people"
-        rest = [words_of(name, units.get(name, "")) for name in data.factors if name not in design.values()]
+        rest = [words_of(name, units.get(name, "")) for name in averaged_over(data, trials, by_columns)]
         channels = "kind" in trials and (trials["kind"] == "force_channel").any()
         channels = ", and force channels from measures that other trials have" if channels else ""
         drawn = pd.concat([without_channels(trials[trials[measure].notna()]) for measure in some])
+        cells = [each_in_conditions(trials, name, by_columns, people == 1).groupby(by_columns, dropna=False) for name in some]
+        values = pd.concat([cell["value"].count() for cell in cells])
         order = {
             name: [value for value in data.levels(name) if (drawn[name] == value).any()]
             for name in design.values() if not pd.api.types.is_numeric_dtype(trials[name])
@@ -316,7 +325,7 @@ def _plans_of(data: Data, table: str, measures: list[str], name: str, design: di
         yield Plan(
             name=f"{name}-by-{'-'.join(design.values())}{number}".replace("_", "-"),
             title=f"{'Lifts' if table == 'lifts' else 'Measures'} by {by}{', continued' if first else ''}",
-            caption=f"{dots}; marks are means over {over} with 95 % intervals. {counted(people, 'person', 'people')}, "
+            caption=f"{dots}; marks are means over {over}{intervals(values)}. {counted(people, 'person', 'people')}, "
             f"{counted(len(trials), 'trial')}; practice, catch trials and repeated attempts are left out{channels}."
             + (f" Averaged over {' and '.join(rest)}." if rest else ""),
             points=means_by_condition,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
@@ -15,7 +16,7 @@ from .._head import MOST_YAML, why_unreadable
 from ..errors import NotThere, error
 from ..session import Session
 from .sessions import Paths, Sample, Sitting, Sittings, named_apart, renamed
-from .words import label
+from .words import label, split
 
 #: Trials of these kinds are not among those that show the effect of a condition.
 ASIDE = ["practice", "catch"]
@@ -26,6 +27,8 @@ _END_OF_DESIGN = "attempt"
 _AFTER_MEASURES = ["not_measured", "simulated", "moved_by", "start_type", "replays"]
 #: Columns of measures that tell what acted on the hand, not what it did.
 _NOT_BEHAVIOUR = ["field_share"]
+#: Values that differ by less than this share of their range are the same.
+_SAME = 0.01
 
 
 @dataclass(frozen=True)
@@ -239,7 +242,13 @@ class Data:
 
     @cached_property
     def measures(self) -> list[Measure]:
-        """The numeric measures and answers of the task that have a value in some trial, as columns of trials.csv."""
+        """The numeric measures and answers of the task that have a value in some trial, as columns of trials.csv, without
+        stimuli."""
+        return [measure for measure in self._numbers if measure.column not in self.stimuli]
+
+    @cached_property
+    def _numbers(self) -> list[Measure]:
+        """The measures, and the stimuli."""
         trials = self.table("trials")
         columns = [str(column) for column in trials.columns]
         first = columns.index(_END_OF_DESIGN) + 1 if _END_OF_DESIGN in columns else len(columns)
@@ -251,6 +260,31 @@ class Data:
             if column in numeric and column not in _AFTER_MEASURES
             and column not in [*built_in, *_NOT_BEHAVIOUR, *self.factors] and trials[column].notna().any()
         ]  # fmt: skip
+
+    @cached_property
+    def stimuli(self) -> list[str]:
+        """Columns of measures whose values the experiment set: they tell what was presented, not what people did.
+
+        Their expression has nothing but factors and draws; or they have three or more values, and within a condition the
+        same one in all trials of all people.
+        """
+        trials = self.table("trials") if self.has("trials") else pd.DataFrame()
+        alike = [name for name in (*self.factors, "kind", "condition", "perturbation") if name in trials] if len(trials) else []
+        if not alike:
+            return []  # a session without a task
+        given = [*self.factors, *(str(draw.get("name")) for task in self.tasks for draw in task.get("draws") or [])]
+        names = {split(name, str(trials.attrs.get("units", {}).get(name, ""))) for name in given} | set(given)
+        custom = [each for task in self.tasks for each in task.get("custom_measures") or []]
+        by_expression = {str(each.get("name")) for each in custom if _is_made_of(str(each.get("of", "")), names)}
+        groups = trials.groupby(list(dict.fromkeys(alike)), dropna=False)
+        found = []
+        for measure in self._numbers:
+            values = groups[measure.column].agg(["min", "max", "count"]).dropna()
+            whole = float(values["max"].max() - values["min"].min())
+            same = whole > 0 and values["count"].min() > 1 and (values["max"] - values["min"]).max() <= _SAME * whole
+            if measure.column in by_expression or (same and (values["min"] / (_SAME * whole)).round().nunique() > 2):
+                found.append(measure.column)
+        return found
 
     def measure(self, column: str, table: str = "trials") -> Measure:
         """A column of a table as a measure. Raises NotThere."""
@@ -274,6 +308,13 @@ class Data:
     def mark(self) -> str:
         """The short mark in each figure's corner: "simulated" if no person took part."""
         return "simulated" if self.is_simulated else ""
+
+
+def _is_made_of(expression: str, names: set[str]) -> bool:
+    """Whether an expression of a task has some of these names, and no other ones but those of functions and units."""
+    expression = re.sub(r"\d\s*[A-Za-z]+(/[A-Za-z]+)?", "0", expression)
+    found = re.findall(r"\"[^\"]*\"|[A-Za-z_][\w.]*(?!\w*\s*\()", expression)
+    return bool(found) and set(found) <= names
 
 
 def checked_list(name: str, values: list[str]) -> list[str]:

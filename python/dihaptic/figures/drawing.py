@@ -12,14 +12,14 @@ from multiprocessing import get_all_start_methods, get_context
 from pathlib import Path
 
 from ..errors import Error
-from . import conditions, learning, lifts, paths, psychophysics, quality
+from . import conditions, fitts, learning, lifts, paths, psychophysics, quality
 from .data import Data, read
 from .saving import Plan, is_changed, save, write
 from .sessions import Paths
 from .statistics import write_analyses
 
 #: Each kind of figure: a module with `plans(data)` and its HEADING, in the order in which figures are listed.
-KINDS = [conditions, lifts, learning, paths, psychophysics, quality]
+KINDS = [fitts, conditions, lifts, learning, paths, psychophysics, quality]
 
 
 def draw(path: Paths, out: str | Path | None = None, *, progress: Callable[[str], None] | None = None) -> list[Path]:
@@ -43,7 +43,7 @@ class Drawn:
     """A figure whose files are in a folder."""
 
     plan: Plan
-    heading: str  #: of its kind, e.g. "Learning"
+    heading: str  #: above it on the page, e.g. "Learning"
     script: Path
     kept: bool  #: its script had been changed, and it was left as it is
 
@@ -57,7 +57,7 @@ def draw_data(
     for kind in KINDS:
         for plan in kind.plans(data):
             script = folder / f"{plan.name}.py"
-            made.append(Drawn(plan, kind.HEADING, script, is_changed(script)))
+            made.append(Drawn(plan, plan.heading or kind.HEADING, script, is_changed(script)))
     for each in made:
         if each.kept:
             name = each.script.name

@@ -16,7 +16,7 @@ from matplotlib.ticker import MaxNLocator
 
 from ..errors import NotThere, error
 from .data import Data, checked_list, sitting_columns
-from .means import means_with_intervals
+from .means import BY_T, intervals, means_with_intervals
 from .saving import Plan
 from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, corner, fit_names, legend_above, same_limits, styled, wrapped
 from .words import counted, in_print, label, level, words_of
@@ -333,7 +333,8 @@ def _key(
             hue, marker = COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)] if few else ""
             line = Line2D([], [], color=hue, ls=_DASHES[i % len(_DASHES)], marker=marker, ms=2.6, lw=1.1)
             band = Patch(color=hue, alpha=0.22, lw=0)
-            out.append(((band, line), level(group) if len(groups) > 1 else "mean with 95 % interval"))
+            drawn = points.loc[(points["of"] == "mean") & (points["group"] == group), "low"].notna().any()
+            out.append(((band, line) if drawn else line, level(group) if len(groups) > 1 else "mean with 95 % interval"))
         out.append((Line2D([], [], color=one, alpha=0.5, lw=0.5), "people"))
     else:
         out.append((Line2D([], [], ls="", marker="o", color=COLOURS[0], ms=2.6), "trial"))
@@ -711,13 +712,16 @@ def _too_many(data: Data) -> str:
     return f" The {groups} groups are not told apart." if groups > _MOST_GROUPS else ""
 
 
-def _lines_in_words(people: int, groups: int, width: int) -> str:
+def _lines_in_words(table: pd.DataFrame, width: int) -> str:
     """What lines and dots of a course are."""
-    if people == 1:
+    counts = table.groupby("group")["person"].nunique()
+    groups = len(counts)
+    if table["person"].nunique() == 1:
         return "Dots are trials"
     each = f" over {width} trials of a block" if width > 1 else ""
     whose = "of the groups' people" if groups > 1 else "of people"
-    return f"Thin lines are people's values{each}; lines and bands are means {whose} with 95 % intervals (Student's t)"
+    bands = "lines and bands" if (counts > 1).any() else "lines"
+    return f"Thin lines are people's values{each}; {bands} are means {whose}{intervals(counts, BY_T)}"
 
 
 def _plans_of_curves(data: Data) -> Iterator[Plan]:
@@ -738,7 +742,7 @@ def _plans_of_curves(data: Data) -> Iterator[Plan]:
 
 def _plan_of_curve(data: Data, table: pd.DataFrame, options: dict[str, Any], unit: str, name: str) -> Plan:
     parts = list(dict.fromkeys(table["part"]))
-    people, groups = table["person"].nunique(), table["group"].nunique()
+    people = table["person"].nunique()
     width = 1 if people == 1 else _width_of_bins(table, _MOST_POINTS if len(parts) == 1 else _MOST_POINTS_OF_SEVERAL)
     measured = table[table["value"].notna()]
     ylabel = _quantity(data, unit)
@@ -750,7 +754,7 @@ def _plan_of_curve(data: Data, table: pd.DataFrame, options: dict[str, Any], uni
         name=name,
         title="Learning over trials",
         caption=f"{ylabel.split(' [')[0].capitalize()} over the trials of {'a round' if len(parts) == 1 else 'each round'}. "
-        f"{_lines_in_words(people, groups, width)}{model if table['fit'].notna().any() else ''}{dotted}.{channels}"
+        f"{_lines_in_words(table, width)}{model if table['fit'].notna().any() else ''}{dotted}.{channels}"
         f"{_left_out(table, len(parts))}{_too_many(data)} {counted(people, 'person', 'people')}, "
         f"{counted(len(measured), 'measured trial')}; practice and all but the last attempt at a trial are left out.",
         points=learning_curve,
@@ -784,7 +788,8 @@ def _plan_of_windows(data: Data, own: pd.DataFrame, options: dict[str, Any], uni
     windows = [window for window in [*WINDOWS, *DIFFERENCES] if window in own and own[window].notna().any()]
     people, groups, rounds = own["person"].nunique(), own["group"].nunique(), own["part"].nunique()
     dots = "Marks are one person's means" if people == 1 else "Dots are people, joined over windows; marks are their means"
-    over = "over trials" if people == 1 else "over people (Student's t)"
+    means = intervals(own.groupby(["part", "group"])["person"].nunique(), f" over people{BY_T}")
+    means = ", with 95 % intervals over trials" if people == 1 else means
     clamp, washout = any("clamp" in window for window in windows), "washout_first" in windows
     also = " and ".join(word for word, there in (("clamp", clamp), ("washout", washout)) if there)
     about = [
@@ -798,7 +803,7 @@ def _plan_of_windows(data: Data, own: pd.DataFrame, options: dict[str, Any], uni
     return Plan(
         name=name,
         title="Learning in windows of trials",
-        caption=f"{dots}, with 95 % intervals {over}. {'; '.join(part for part in about if part)}.{_too_many(data)} "
+        caption=f"{dots}{means}. {'; '.join(part for part in about if part)}.{_too_many(data)} "
         f"{counted(people, 'person', 'people')}{f', {rounds} rounds' if rounds > 1 else ''}, "
         f"{counted(int(own['measured'].sum()), 'measured trial')}.",
         points=learning_windows,
@@ -814,7 +819,8 @@ def _plan_of_generalisation(data: Data) -> Iterator[Plan]:
     if table["angle_deg"].nunique() < 2:
         return
     people = table["person"].nunique()
-    lines = "" if people == 1 else " Thin lines are people, marks their means with 95 % intervals (Student's t)."
+    counts = table.groupby([_parts(table), "group", "angle_deg"])["person"].nunique()
+    lines = "" if people == 1 else f" Thin lines are people, marks their means{intervals(counts, BY_T)}."
     yield Plan(
         name="generalisation",
         title="Generalisation to other directions",
@@ -849,7 +855,7 @@ def _plan_of_measures(data: Data, session: str, suffix: str) -> Plan | None:
     if not measures:
         return None
     some, rest = measures[:_MOST_PANELS], measures[_MOST_PANELS:]
-    people, groups = table["person"].nunique(), table["group"].nunique()
+    people = table["person"].nunique()
     most = _MOST_POINTS if len(some) == 1 else _MOST_POINTS_OF_SEVERAL
     widths = [_width_of_bins(table.assign(value=table[measure.column]), most) for measure in some]
     width = 1 if people == 1 else max(widths)
@@ -858,7 +864,7 @@ def _plan_of_measures(data: Data, session: str, suffix: str) -> Plan | None:
     return Plan(
         name=f"measures-over-trials{suffix}",
         title="Measures over trials" + (f" ({session})" if suffix else ""),
-        caption=f"{_lines_in_words(people, groups, width)}.{_left_out(table, len(some))}{_too_many(data)} "
+        caption=f"{_lines_in_words(table, width)}.{_left_out(table, len(some))}{_too_many(data)} "
         f"{counted(people, 'person', 'people')}, "
         f"{counted(int(values.sum()), 'trial')}; practice and all but the last attempt at a trial are left out.{omitted}",
         points=measures_over_trials,
@@ -871,4 +877,5 @@ def _plan_of_measures(data: Data, session: str, suffix: str) -> Plan | None:
         drawing_options={
             "size": "two columns" if len(some) > 1 or table["trial"].max() > 60 else "one column",
         },  # fmt: skip
+        heading="Over trials",
     )

@@ -17,7 +17,7 @@ from scipy import special
 from ..errors import NotThere, error
 from .conditions import counting_trials
 from .data import Data, sitting_columns
-from .means import means_with_intervals
+from .means import BY_T, intervals, means_with_intervals
 from .saving import Plan
 from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, corner, fit_names, legend_above, styled, wrapped
 from .words import counted, in_print, label, level, words_of
@@ -1025,10 +1025,11 @@ def _plans_of_functions(data: Data, procedures: list[_Procedure]) -> Iterator[Pl
     single = _is_single(data)
     drawn = procedures if single else [each for each in procedures if len(_fits(data, each))]
     for name, some in _parted("psychometric-functions", drawn):
+        what = _what_of_one if single else _what_of_several
         yield Plan(
             name=name,
             title="Psychometric functions",
-            caption=f"{_what_of_one(data, some) if single else _OF_SEVERAL} {_count(data, some)}.{_outside(data, some)}",
+            caption=f"{what(data, some)} {_count(data, some)}.{_outside(data, some)}",
             points=psychometric_functions,
             points_options={"procedures": [each.title for each in some]},
             drawing=draw_psychometric_functions,
@@ -1036,11 +1037,22 @@ def _plans_of_functions(data: Data, procedures: list[_Procedure]) -> Iterator[Pl
         )
 
 
-_OF_SEVERAL = (
-    "Thin curves are the functions fitted to each person's answers (maximum likelihood), over the levels that the person was "
-    "shown; dots are their thresholds, and marks are means of thresholds with 95 % intervals (Student's t), "
-    "which are cut where they would leave the panel."
-)
+def _what_of_several(data: Data, procedures: list[_Procedure]) -> str:
+    """What the psychometric functions of several people show."""
+    out = "Thin curves are the functions fitted to each person's answers (maximum likelihood), over the levels that the person "
+    out += "was shown; dots are their thresholds"
+    counts = _people_inside(data, procedures)
+    if counts.empty:
+        return f"{out}."
+    cut = ", which are cut where they would leave the panel" if (counts > 1).any() else ""
+    return f"{out}, and marks are means of thresholds{intervals(counts, BY_T)}{cut}."
+
+
+def _people_inside(data: Data, procedures: list[_Procedure]) -> pd.Series:
+    """How many people of each group have a threshold within the levels shown, for each procedure."""
+    fits = [_fits(data, each).assign(procedure=each.title) for each in procedures]
+    known = pd.concat([each[~each["outside"].astype(bool)] for each in fits if len(each)] or [pd.DataFrame()])
+    return known.groupby(["procedure", "group"])["person"].nunique() if len(known) else pd.Series(dtype=int)
 
 
 def _what_of_one(data: Data, procedures: list[_Procedure]) -> str:
@@ -1082,7 +1094,7 @@ def _plans_of_thresholds(data: Data, procedures: list[_Procedure]) -> Iterator[P
             yield Plan(
                 name=part,
                 title=f"{title} by procedure",
-                caption=f"Dots are people{joined}; marks are means{geometric} with 95 % intervals (Student's t). "
+                caption=f"Dots are people{joined}; marks are means{geometric}{intervals(_people_inside(data, some), BY_T)}. "
                 f"{_count(data, some)}.{_outside(data, procedures)}",
                 points=thresholds_by_procedure,
                 points_options={"measure": measure, "procedures": [each.title for each in some]},
@@ -1143,7 +1155,7 @@ def _plan_of_answers(data: Data) -> Iterator[Plan]:
     yield Plan(
         name=f"answers-by-{x}".replace("_", "-"),
         title=f"Answers by {words_of(x, unit)}",
-        caption=_caption_of_answers(counting, len(trials) - len(counting), averaged, side),
+        caption=_caption_of_answers(counting, x, len(trials) - len(counting), averaged, side),
         points=answers_by_level,
         points_options={**options, **({"series": series} if series else {}), **({"side": side} if side else {})},
         drawing=draw_answers,
@@ -1151,12 +1163,13 @@ def _plan_of_answers(data: Data) -> Iterator[Plan]:
     )
 
 
-def _caption_of_answers(counting: pd.DataFrame, rest: int, averaged: list[str], side: str) -> str:
+def _caption_of_answers(counting: pd.DataFrame, x: str, rest: int, averaged: list[str], side: str) -> str:
     """What the figure of answers shows: of these trials, and without the rest."""
     people = counting["person"].nunique()
     out = "Shares of trials with Wilson's 95 % intervals."
     if people > 1:
-        out = "Dots are people's shares, joined over levels; marks are means over people with 95 % intervals (Student's t)."
+        counts = counting.groupby(["group", x])["person"].nunique()
+        out = f"Dots are people's shares, joined over levels; marks are means over people{intervals(counts, BY_T)}."
     if side:
         out += f" An answer names the comparison if it names the side on which that was (column {side} of trials.csv)."
     if averaged:

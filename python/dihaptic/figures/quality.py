@@ -115,10 +115,10 @@ def _shares(trials: pd.DataFrame, by: str, order: list[str]) -> pd.DataFrame:
     return out.sort_values(by, key=lambda names: names.map(place), kind="stable").reset_index(drop=True)
 
 
-def _not_measured(trials: pd.DataFrame) -> pd.DataFrame:
-    """Trials that lack a measure which trials like them have, by reason."""
+def missing_values(trials: pd.DataFrame) -> pd.DataFrame:
+    """What trials lack that trials like them have: a row for each `trial` (its index), `measure` and `reason`."""
     if "not_measured" not in trials or trials["not_measured"].notna().sum() == 0:
-        return pd.DataFrame()
+        return pd.DataFrame(columns=["trial", "measure", "reason"])
     words = trials["not_measured"].dropna().astype(str).str.split("; ").explode()
     each = words.str.extract(r"^(?P<measure>[^:]*): (?P<reason>.*)$").dropna().rename_axis("trial").reset_index()
     alike = [key for key in ("block", "kind", "condition", "perturbation") if key in trials]
@@ -128,7 +128,14 @@ def _not_measured(trials: pd.DataFrame) -> pd.DataFrame:
     lacks = each.groupby(["measure", "cell"])["trial"].nunique()
     nowhere = each.groupby("measure")["trial"].nunique() == len(trials)
     asked = [nowhere[m] or lacks[m, c] < sizes[c] for m, c in zip(each["measure"], each["cell"])]
-    each = each[np.array(asked, dtype=bool)].copy()
+    return each[np.array(asked, dtype=bool)].drop(columns="cell")
+
+
+def _not_measured(trials: pd.DataFrame) -> pd.DataFrame:
+    """Trials that lack a measure, by reason."""
+    each = missing_values(trials)
+    if each.empty:
+        return pd.DataFrame()
     each["reason"] = _alike(each["reason"])
     out = each.groupby("reason").agg(n=("trial", "nunique"), measures=("measure", lambda names: ", ".join(dict.fromkeys(names))))
     out = out.sort_values("n", ascending=False, kind="stable").reset_index()

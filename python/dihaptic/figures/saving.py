@@ -46,6 +46,7 @@ class Plan:
     points_options: dict[str, Any] = field(default_factory=dict)
     drawing: Callable[..., Figure] = Figure
     drawing_options: dict[str, Any] = field(default_factory=dict)
+    heading: str = ""  #: above it on the page of a report; "": that of its kind
 
     def make(self, data: Data) -> tuple[pd.DataFrame, Figure]:
         """Its points, and the figure. Raises Error."""

@@ -230,7 +230,7 @@ class Sittings:
                 why_not = "another session resumes it"
             elif _stands_in(session):
                 why_not = "a simulated person stood in for the participant"
-            elif _is_cut_short(session):
+            elif _is_cut_short(session) and not _counts_in_study(session):
                 why_not = "it ended before its trials were done"
             else:
                 yield _sitting(session)
@@ -275,6 +275,22 @@ def _stands_in(session: Session) -> bool:
     """Whether a simulated person did a participant's session of a study (`run --simulate`), in the participant's folder."""
     person = str((session.info.get("participant") or {}).get("id") or "")
     return bool(session.info.get("in_study")) and person == f"sim-{session.folder.parent.parent.name}"
+
+
+def _counts_in_study(session: Session) -> bool:
+    """Whether `dihaptic collect` takes a session that ended early, as the study's `resuming` asks for. The study's file lies
+    beside the folder sessions/PARTICIPANT/STUDY_SESSION."""
+    place, above = session.info.get("in_study") or {}, session.folder.resolve().parents
+    if not place or len(above) < 4:
+        return False
+    for file in sorted(above[3].glob("*.y*ml")):
+        try:
+            study = Study(file)
+            if study.title == place.get("study"):
+                return study.session(above[1].name, above[0].name).folder.resolve() == session.folder.resolve()
+        except Error:  # another kind of file, or a study without this session
+            continue
+    return False
 
 
 def _is_cut_short(session: Session) -> bool:

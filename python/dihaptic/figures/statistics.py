@@ -6,11 +6,14 @@ import json
 import keyword
 import re
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pandas as pd
 
 from .data import ASIDE, Data
@@ -30,6 +33,8 @@ _R_WORDS = {
 #: Names that patsy gives a meaning of its own.
 _PATSY_WORDS = {"C", "Q", "I", "T", "center", "standardize", "Treatment", "Sum", "Diff", "Poly", "Helmert"}
 _WIDTH = 118
+#: Most parameters of an interaction.
+_MOST_OF_PAIR = 12
 
 
 def write_analyses(data: Data, folder: str | Path) -> list[Path]:
@@ -39,8 +44,8 @@ def write_analyses(data: Data, folder: str | Path) -> list[Path]:
     Each is a script of its own: it reads the tables that are written beside it (`analysis-trials.csv`, ...), fits a mixed
     model (REML) of each measure, and prints estimates with 95 % intervals (Wald), the numbers of people and of trials.
     Fixed effects are the factors of the design, numbers centred, words compared with the first one; each person has an
-    intercept of their own. For learning, the measure is the late compensation, by group and by round. Returns [] for one
-    person, or for a design without factors.
+    intercept of their own. A second model adds the interactions of each two factors that the design crosses. For learning,
+    the measure is the late compensation, by group and by round. Returns [] for one person, or for a design without factors.
 
     >>> from dihaptic import figures
     >>> figures.write_analyses(figures.read(lift_session), folder)
@@ -75,6 +80,7 @@ class _Design:
 
     tables: list[str]
     models: dict[str, list[str]]  #: a measure's factors
+    pairs: dict[str, list[tuple[str, str]]] = field(default_factory=dict)  #: those of them whose interaction can be told
     numbers: dict[str, str] = field(default_factory=dict)  #: a numeric factor's unit
     words: dict[str, list[str]] = field(default_factory=dict)  #: levels in order
     of_lifts: list[str] = field(default_factory=list)  #: measures from lifts.csv
@@ -103,6 +109,7 @@ def _of_attempts(data: Data) -> _Design | None:
         effects = _effects(trials, measure, design)
         if effects:
             design.models[measure] = effects
+            design.pairs[measure] = _pairs(trials, measure, effects, design)
     return design if design.models else None
 
 
@@ -124,6 +131,7 @@ def _of_learning(data: Data) -> _Design | None:
     if not effects:
         return None
     design.models = {"compensation": effects}
+    design.pairs = {"compensation": _pairs(table, "compensation", effects, design)}
     return design
 
 
@@ -177,19 +185,47 @@ def _effects(rows: pd.DataFrame, measure: str, design: _Design) -> list[str]:
     return chosen if enough and known[measure].nunique() > 1 else []
 
 
-def _is_of_full_rank(rows: pd.DataFrame, names: list[str], design: _Design) -> bool:
-    """Whether the effects of these factors can be told apart."""
+def _pairs(rows: pd.DataFrame, measure: str, effects: list[str], design: _Design) -> list[tuple[str, str]]:
+    """The pairs of a model's factors whose interactions can be told apart from them and from each other."""
+    rows = rows[rows[measure].notna()]
+    chosen: list[tuple[str, str]] = []
+    for pair in combinations(effects, 2):
+        parameters = _parameters(rows, effects, [*chosen, pair], design)
+        enough = len(rows.dropna(subset=effects)) > rows["person"].nunique() + parameters
+        if enough and parameters - _parameters(rows, effects, chosen, design) <= _MOST_OF_PAIR:
+            chosen += [pair] if _is_of_full_rank(rows, effects, design, [*chosen, pair]) else []
+    return chosen
+
+
+def _columns(
+    rows: pd.DataFrame, names: list[str], design: _Design, pairs: Sequence[tuple[str, str]] = ()
+) -> list[npt.NDArray[np.float64]]:
+    """The columns of a model's matrix: of the intercept, of each factor, and of each interaction."""
     known = rows.dropna(subset=names)
-    columns = [np.ones(len(known))]
+    of: dict[str, list[npt.NDArray[np.float64]]] = {}
     for name in names:
-        if known[name].nunique() < 2:
-            return False
         if name in design.numbers:
             centred = known[name] - known[name].mean()
-            columns.append((centred / centred.std()).to_numpy())
+            of[name] = [(centred / centred.std()).to_numpy()]
         else:
             present = [value for value in design.words[name] if (known[name].astype(str) == value).any()]
-            columns += [(known[name].astype(str) == value).to_numpy(dtype=float) for value in present[1:]]
+            of[name] = [(known[name].astype(str) == value).to_numpy(dtype=float) for value in present[1:]]
+    products = [a * b for first, second in pairs for a in of[first] for b in of[second]]
+    return [np.ones(len(known)), *(column for name in names for column in of[name]), *products]
+
+
+def _parameters(rows: pd.DataFrame, names: list[str], pairs: list[tuple[str, str]], design: _Design) -> int:
+    return len(_columns(rows, names, design, pairs))
+
+
+def _is_of_full_rank(
+    rows: pd.DataFrame, names: list[str], design: _Design, pairs: Sequence[tuple[str, str]] = ()
+) -> bool:
+    """Whether these effects can be told apart."""
+    known = rows.dropna(subset=names)
+    if any(known[name].nunique() < 2 for name in names):
+        return False
+    columns = _columns(rows, names, design, pairs)
     return bool(np.linalg.matrix_rank(np.column_stack(columns)) == len(columns))
 
 
@@ -211,9 +247,8 @@ def _notes(design: _Design) -> list[str]:
     partial = [measure for measure, effects in design.models.items() if len(effects) < len(factors)]
     if partial:
         notes.append("A model lacks the factors that its trials do not tell apart.")
-    if len(factors) > 1:
-        first, second = (_formula_name(name, "R") for name in factors[:2])
-        notes.append(f"For an interaction, write {first} * {second}.")
+    if any(design.pairs.values()):
+        notes.append("The second model of a measure adds interactions: how much the effect of one factor differs for the other.")
     return notes
 
 
@@ -225,8 +260,12 @@ def _formula_name(name: str, language: str) -> str:
     return name if plain and not keyword.iskeyword(name) and name not in _PATSY_WORDS else f"Q({name!r})"
 
 
-def _formula(names: list[str], language: str) -> str:
-    return " + ".join(_formula_name(name, language) for name in names)
+def _formulas(design: _Design, measure: str, language: str) -> list[str]:
+    """The formula of a measure's factors, and one that has their interactions, too, if these can be told."""
+    names = {name: _formula_name(name, language) for name in design.models[measure]}
+    factors = " + ".join(names.values())
+    pairs = [f"{names[first]}:{names[second]}" for first, second in design.pairs.get(measure, [])]
+    return [factors, *([" + ".join([factors, *pairs])] if pairs else [])]
 
 
 def _laid_out(head: str, items: list[str], tail: str) -> str:
@@ -263,7 +302,7 @@ def _python(data: Data, design: _Design) -> str:
     about = "\n".join(line.replace("\\", "/").replace('"', "'") for line in _about(data, design))
     words = _laid_out("WORDS = {", [f"{_text(name)}: [{_items(levels)}]" for name, levels in design.words.items()], "}")
     numbers = _laid_out("NUMBERS = {", [f"{_text(name)}: {_text(unit)}" for name, unit in design.numbers.items()], "}")
-    models = "".join(f"    {_text(name)}: {_text(_formula(effects, 'Python'))},\n" for name, effects in design.models.items())
+    models = "".join(f"    {_text(name)}: [{_items(_formulas(design, name, 'Python'))}],\n" for name in design.models)
     rows = _python_late(design, sitting) if design.late else _python_attempts(design, sitting)
     return f'''"""{about}
 Run with python3 analysis.py; it takes the Debian package python3-statsmodels. analysis.R fits the same models.
@@ -288,7 +327,7 @@ def read(name):
 
 
 {rows}
-for measure, effects in MODELS.items():
+for measure, effects in ((measure, effects) for measure, each in MODELS.items() for effects in each):
     known = rows[rows[measure].notna()].copy()
     scale = known[measure].std()  # the fit converges best where numbers are about 1
     known[measure] /= scale
@@ -302,9 +341,13 @@ for measure, effects in MODELS.items():
     fit = smf.mixedlm(f"{{measure}} ~ {{effects}}", known, groups="person", missing="drop").fit(reml=True, method="powell")
     half = 1.96 * fit.bse_fe
     table = scale * pd.DataFrame({{"estimate": fit.fe_params, "low": fit.fe_params - half, "high": fit.fe_params + half}})
+    what = "estimates"
+    if effects != MODELS[measure][0]:
+        what, table = "interactions", table.drop(index=["Intercept", *(name for name in names if name in table.index)])
     print(f"\\n{{measure}}: {{fit.model.n_groups}} people, {{int(fit.nobs)}} trials; standard deviation between people")
-    print(f"{{scale * fit.cov_re.iloc[0, 0] ** 0.5:.6g}}, within {{scale * fit.scale ** 0.5:.6g}}; estimates and 95 % intervals:")
-    print(table.rename(index=names).to_string(float_format="{{:.6g}}".format))
+    print(f"{{scale * fit.cov_re.iloc[0, 0] ** 0.5:.6g}}, within {{scale * fit.scale ** 0.5:.6g}}; {{what}} and 95 % intervals:")
+    table.index = [names.get(row) or " x ".join(names.get(part, part) for part in row.split(":")) for row in table.index]
+    print(table.to_string(float_format="{{:.6g}}".format))
 '''
 
 
@@ -341,11 +384,12 @@ def _r(data: Data, design: _Design) -> str:
     sitting = _sitting(data.table(design.tables[0]))
     numbers = _laid_out("numbers <- c(", [f"`{name}` = {_text(unit)}" for name, unit in design.numbers.items()], ")")
     words = _laid_out("words <- list(", [f"`{name}` = {_vector(levels)}" for name, levels in design.words.items()], ")")
-    models = ",\n".join(f"  `{name}` = {_text(_formula(effects, 'R'))}" for name, effects in design.models.items())
+    models = ",\n".join(f"  `{name}` = {_vector(_formulas(design, name, 'R'))}" for name in design.models)
     rows = _r_late(design, sitting) if design.late else _r_attempts(design, sitting)
     return f"""{_comment(_about(data, design))}
 # Run with Rscript analysis.R; it takes the Debian package r-cran-lme4. analysis.py fits the same models.
 suppressPackageStartupMessages(library(lme4))
+options(width = 200)
 script <- sub("^--file=", "", grep("^--file=", commandArgs(), value = TRUE))
 if (length(script) == 1) setwd(dirname(gsub("~+~", " ", script, fixed = TRUE)))
 
@@ -353,7 +397,7 @@ if (length(script) == 1) setwd(dirname(gsub("~+~", " ", script, fixed = TRUE)))
 # Where people differ in an effect of their own trials, write (1 + FACTOR | person) below.
 {numbers}
 {words}
-models <- c(
+models <- list(
 {models}
 )
 
@@ -364,19 +408,25 @@ read <- function(name) {{
 }}
 
 {rows}
-for (measure in names(models)) {{
+for (measure in names(models)) for (effects in models[[measure]]) {{
   known <- rows[!is.na(rows[[measure]]), ]
   for (name in names(numbers)) known[[name]] <- known[[name]] - mean(known[[name]], na.rm = TRUE)
   for (name in names(words)) known[[name]] <- droplevels(factor(known[[name]], levels = words[[name]]))
-  fit <- lmer(as.formula(paste0("`", measure, "` ~ ", models[[measure]], " + (1 | person)")), known, REML = TRUE)
+  fit <- lmer(as.formula(paste0("`", measure, "` ~ ", effects, " + (1 | person)")), known, REML = TRUE)
   error <- sqrt(diag(as.matrix(vcov(fit))))
   table <- data.frame(estimate = fixef(fit), low = fixef(fit) - 1.96 * error, high = fixef(fit) + 1.96 * error)
-  rownames(table)[1] <- "Intercept"
-  for (name in names(numbers)) rownames(table)[rownames(table) == name] <- paste0(name, ", for each ", numbers[[name]])
+  labels <- c("(Intercept)" = "Intercept")
+  for (name in names(numbers)) labels[name] <- paste0(name, ", for each ", numbers[[name]])
   for (name in names(words)) for (level in levels(known[[name]])[-1])
-    rownames(table)[rownames(table) == paste0(name, level)] <- paste0(name, ": ", level, " - ", levels(known[[name]])[1])
+    labels[paste0(name, level)] <- paste0(name, ": ", level, " - ", levels(known[[name]])[1])
+  label <- function(row) if (row %in% names(labels)) labels[[row]] else row
+  both <- function(row) paste(sapply(strsplit(row, ":", fixed = TRUE)[[1]], label), collapse = " x ")
+  main <- effects == models[[measure]][1]
+  if (!main) table <- table[!rownames(table) %in% names(labels), ]
+  rownames(table) <- sapply(rownames(table), if (main) label else both)
   cat("\\n", measure, ": ", ngrps(fit), " people, ", nobs(fit), " trials; standard deviation between people\\n", sep = "")
-  cat(sprintf("%.6g, within %.6g; estimates and 95 %% intervals:\\n", sqrt(VarCorr(fit)$person[1]), sigma(fit)))
+  cat(sprintf("%.6g, within %.6g; ", sqrt(VarCorr(fit)$person[1]), sigma(fit)))
+  cat(if (main) "estimates" else "interactions", "and 95 % intervals:\\n")
   print(format(table, digits = 6, width = 10))
 }}
 """

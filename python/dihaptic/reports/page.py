@@ -13,6 +13,8 @@ import pandas as pd
 
 #: Figures whose points are larger than this [bytes] are not on the page as numbers, but in a file beside it.
 _MOST_POINTS = 200_000
+#: Columns of a table that has room on paper.
+_MOST_COLUMNS = 8
 
 
 class Page:
@@ -49,12 +51,19 @@ class Page:
         """A paragraph; `kind` is a class of the style sheet."""
         self._body.append(f"<p{_class(kind)}>{escape(text)}</p>")
 
-    def table(self, table: pd.DataFrame, caption: str = "", *, folded: str = "") -> None:
-        """A table with its header; numbers have three digits. With `folded`, only this title is seen at first."""
+    def table(self, table: pd.DataFrame, caption: str = "", *, folded: str = "", keys: int = 0) -> None:
+        """A table with its header; numbers have three digits. With `folded`, only this title is seen at first. With `keys`,
+        a table that is too wide for paper is in pieces, which all begin with so many of its columns."""
         if len(table) == 0:
             return
-        many = _class("many" if table.shape[1] > 9 else "")
-        text = f'<div class="wide"><table{many}>\n{_header(table)}{_rows(table)}</table></div>'
+        rest = table.shape[1] - keys
+        step = rest if not keys or table.shape[1] <= _MOST_COLUMNS else max(1, _MOST_COLUMNS - keys)
+        pieces = [table.iloc[:, [*range(keys), *range(i, min(i + step, rest + keys))]] for i in range(keys, rest + keys, step)]
+        text = "\n".join(
+            f'<div class="wide"><table{_class("many" if piece.shape[1] > _MOST_COLUMNS else "")}>\n'
+            f"{_header(piece)}{_rows(piece)}</table></div>"
+            for piece in pieces
+        )
         if caption:
             text += f'\n<p class="caption">{escape(caption)}</p>'
         self._body.append(f"<details><summary>{escape(folded)}</summary>\n{text}\n</details>" if folded else text)
@@ -132,6 +141,23 @@ def in_short(value: Any) -> str:
         return "0"
     digits = max(0, 2 - math.floor(math.log10(abs(value))))
     return f"{value:.{digits}f}" if 1e-3 <= abs(value) < 1e6 else f"{value:.2e}"
+
+
+def between(low: Any, high: Any) -> str:
+    """ "0.6 to 0.8": an interval in words, or "-"."""
+    return "-" if pd.isna(low) or pd.isna(high) else f"{in_short(low)} to {in_short(high)}"
+
+
+def with_interval(value: Any, low: Any, high: Any) -> str:
+    """A number with its interval, if there is one."""
+    known = not (pd.isna(low) or pd.isna(high)) and in_short(low) != in_short(high)
+    return in_short(value) + (f" ({between(low, high)})" if known else "")
+
+
+def without_empty(table: pd.DataFrame) -> pd.DataFrame:
+    """The table without columns that are empty."""
+    empty = [name for name in table if table[name].isna().all() or (table[name].astype(str) == "").all()]
+    return table.drop(columns=empty)
 
 
 def _class(kind: str) -> str:

@@ -1,0 +1,276 @@
+"""What came out, in sentences, and what a reader is warned of before using it."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+import pandas as pd
+
+from ..figures import fitts
+from ..figures.conditions import averaged_over, axes_of_design, counting_trials, each_in_conditions
+from ..figures.data import Data, sitting_columns
+from ..figures.means import means_with_intervals
+from ..figures.words import counted, in_print, label, level, words_of
+from .page import in_short
+
+#: Measures that are in the sentences; the others are in the table.
+_MOST_MEASURES = 3
+#: Figures of lifts that are in them, where the task has no measures of its own.
+_OF_LIFTS = ["peak_grip_N", "static_grip_N", "safety_margin"]
+#: Most levels that are listed by their names.
+MOST_LISTED = 12
+#: Columns over which no sentence takes a mean.
+_APART = ("group", "round", "study_session", "perturbation")
+#: Trials of a window of a learning curve at most, as in fits.csv.
+_WINDOW = 8
+#: The share of trials that were repeated from which on a reader is warned.
+_MANY_REPEATED = 0.1
+
+
+def results_of(data: Data) -> list[str]:
+    """A sentence for each main result: what was learned, the thresholds, the first measures by condition, the outcomes."""
+    results = [_learned(data), _thresholds(data), _fitts(data), *_measured(data), _outcomes(data)]
+    return [text for text in results if text]
+
+
+def warnings_of(data: Data, told: dict[str, Any]) -> list[str]:
+    """What speaks against using these numbers as they are. `told` is what the program says of these sessions."""
+    out = []
+    if told.get("not_measured"):
+        out.append(
+            f"Dihaptic does not yet measure the learning of these perturbations: {told['not_measured']}. Figures of "
+            "trials under them are empty. The hand's movement is in trials.csv, and in full in session.nwb."
+        )
+    if data.is_simulated and data.sample.moved_by == "simulated_person":
+        out += _beyond_people(data)
+    if text := _missed_solves(data):
+        out.append(text)
+    if data.has("adaptation") and (text := shared_windows(data.table("adaptation"))):
+        out.append(text)
+    trials, repeated = _repeated(data)
+    if repeated > _MANY_REPEATED * trials:
+        share = _percent(repeated, trials)
+        out.append(f"{repeated} of {trials} trials ({share}) were repeated: Quality of the data shows after which outcomes.")
+    return out
+
+
+def listed(items: list[str]) -> str:
+    """ "a", "a and b", "a, b and c".
+
+    >>> from dihaptic.reports.results import listed
+    >>> listed(["80 g", "140 g", "200 g"])
+    '80 g, 140 g and 200 g'
+    """
+    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}" if items else ""
+
+
+def capital(text: str) -> str:
+    """A text that begins a sentence."""
+    return text[:1].upper() + text[1:]
+
+
+def with_spreads(means: pd.Series, spreads: pd.Series) -> list[str]:
+    """ "0.69 ± 0.08": means with their standard deviations, all with as many decimals as two digits of the middle deviation
+    need; or, without any, as three digits of the largest mean.
+
+    >>> with_spreads(pd.Series([0.1857, 0.7304]), pd.Series([0.0252, 0.11]))
+    ['0.19 ± 0.03', '0.73 ± 0.11']
+    """
+    known = spreads[spreads > 0]
+    # the larger of two in the middle: people's deviations have few digits that are known
+    size = known.quantile(0.5, interpolation="higher") / 10 if len(known) else means.abs().max() / 100
+    digits = min(6, max(0, -math.floor(math.log10(size)))) if size > 0 else 0
+    texts = [f"{round(mean, digits) + 0.0:.{digits}f}" for mean in means]  # + 0.0: no "-0.00"
+    return [text + (f" ± {spread:.{digits}f}" if spread > 0 else "") for text, spread in zip(texts, spreads)]
+
+
+def means_of(data: Data, measure: str, by: list[str], table: str = "trials") -> pd.DataFrame:
+    """Means of a measure: a row for each combination of the columns `by`, in the order of their levels, with `mean`, `sd`,
+    and the 95 % interval from `low` to `high` over `n` people, or over `n` trials of one person; and the number of `trials`.
+    """
+    trials = counting_trials(data, table).assign(all="")
+    keys = by or ["all"]
+    each = each_in_conditions(trials, measure, keys, len(data.people) == 1)
+    means = means_with_intervals(each, keys, dropna=False).rename(columns={"value": "mean"})
+    spread = each.groupby(keys, dropna=False).agg(sd=("value", "std"), trials=("n", "sum")).reset_index()
+    return data.in_order(means.merge(spread, on=keys), by).reset_index(drop=True)
+
+
+# Results
+
+
+def _fitts(data: Data) -> str:
+    for plan in fitts.plans(data):
+        return f"Movement time over the index of difficulty (ID): {fitts.law_in_words(plan.points(data))}."
+    return ""
+
+
+def _outcomes(data: Data) -> str:
+    if not data.has("trials") or "outcome" not in data.table("trials"):
+        return ""
+    outcomes = data.table("trials")["outcome"].fillna("none").astype(str).value_counts()
+    every = [f"{n} {outcome}" for outcome, n in outcomes.items()]
+    trials, repeated = _repeated(data)
+    verb = "was" if repeated == 1 else "were"
+    again = f" {repeated} of {trials} trials ({_percent(repeated, trials)}) {verb} repeated." if repeated else ""
+    return f"Outcomes of {counted(int(outcomes.sum()), 'attempt')}: {listed(every)}.{again}"
+
+
+def _repeated(data: Data) -> tuple[int, int]:
+    """How many trials there are, and how many of them had more than one attempt."""
+    trials = data.table("trials") if data.has("trials") else pd.DataFrame()
+    if not {"attempt", "trial_num"} <= set(trials):
+        return 0, 0
+    attempts = trials.groupby([*sitting_columns(trials), "trial_num"]).size()
+    return len(attempts), int((attempts > 1).sum())
+
+
+def _percent(part: int, whole: int) -> str:
+    return f"{100 * part / whole:.2g} %"
+
+
+def _measured(data: Data) -> list[str]:
+    """The first measures, and those of lifts, in each condition: mean and SD over people, or over the trials of one person."""
+    if not data.has("trials") or "attempt" not in data.table("trials"):
+        return []
+    index = _is_index(data)
+    # what was learned has a sentence, and details of its regression are in the table
+    names = [measure.column for measure in data.measures if not (index and measure.column.startswith("adaptation_index"))]
+    own = [("trials", name) for name in names[:_MOST_MEASURES]]
+    if data.has("lifts") and not data.measures:
+        known = counting_trials(data, "lifts")
+        own = [("lifts", name) for name in _OF_LIFTS if name in known and known[name].notna().any()]
+    axes = axes_of_design(data)
+    by = [axes["x"]] if axes else []
+    by += [name for name in (axes.get("colour"), axes.get("panel")) if name in _APART]
+    out = [_sentence(data, measure, by, table) for table, measure in own]
+    if out and len(names) > _MOST_MEASURES:
+        out[-1] += " The tables have the other measures."
+    return out
+
+
+def _is_index(data: Data) -> bool:
+    """Whether compensation is the adaptation index of force channels."""
+    return data.has("fits") and "adaptation_index" in set(data.table("fits")["measure"].dropna())
+
+
+def _sentence(data: Data, measure: str, by: list[str], table: str) -> str:
+    """A measure in each condition: "Movement time (mean ± SD): 0.69 ± 0.08 s (40 mm), ..."."""
+    units = data.table("trials").attrs.get("units", {})
+    unit = in_print(data.measure(measure, table).unit)
+    name = words_of(measure, data.measure(measure, table).unit)
+    if sum(words_of(each.column, each.unit) == name for each in data.measures) > 1:
+        name = label(measure, data.measure(measure, table).unit)
+    means = means_of(data, measure, by, table)
+    means = means[means["mean"].notna()]
+    texts = []
+    shown = means.head(MOST_LISTED)
+    for row, words in zip(shown.to_dict("records"), with_spreads(shown["mean"], shown["sd"])):
+        named = [name for name in by if name != "perturbation" or pd.notna(row[name])]
+        of = ", ".join(level(row[name], units.get(name, "")) for name in named)
+        value = f"{words} {unit if unit != '1' else ''}".strip()
+        texts.append(f"{value} ({of})" if of else value)
+    more = f", and {len(means) - MOST_LISTED} further conditions" if len(means) > MOST_LISTED else ""
+    trials = counted(int(means["trials"].sum()), "trial")
+    people = counting_trials(data, table).dropna(subset=[measure])["person"].nunique()
+    n = trials if len(data.people) == 1 else f"{counted(people, 'person', 'people')}, {trials}"
+    over = [words_of(name, units.get(name, "")) for name in averaged_over(data, counting_trials(data, table), by)]
+    averaged = f"; averaged over {listed(over)}" if over else ""
+    spread = "" if (means["n"] < 2).all() else f" (mean ± SD over {'trials' if len(data.people) == 1 else 'people'})"
+    return f"{capital(name)}{spread}: {listed(texts)}{more}; n = {n}{averaged}."
+
+
+def _learned(data: Data) -> str:
+    if not data.has("fits"):
+        return ""
+    fits = data.table("fits")
+    fits["round"] = fits["round"].fillna("").astype(str)
+    texts = []
+    several = fits["group"].nunique() > 1
+    for (group, part), own in fits.groupby(["group", "round"], sort=False):
+        of = ", ".join(filter(None, [group if several else "", f"round {part}" if part else ""]))
+        known = [name for name in ("baseline", "early", "late") if name in own and own[name].notna().any()]
+        if not known:
+            continue
+        each = own.groupby("person")[known].mean()
+        unit = in_print(str(own["unit"].iloc[0]))
+        windows = [f"{words} {unit} ({name})" for name, words in zip(known, with_spreads(each.mean(), each.std()))]
+        texts.append(f"{listed(windows)}{f' in {of}' if of else ''}")
+    people = fits["person"].nunique()
+    spread = "mean ± SD over people" if people > 1 else "means over at most eight trials"
+    n = f"; n = {counted(people, 'person', 'people')}" if people > 1 else ""
+    return f"{'Adaptation index' if _is_index(data) else 'Compensation'} ({spread}): {'; '.join(texts)}{n}." if texts else ""
+
+
+def _thresholds(data: Data) -> str:
+    if not data.has("thresholds"):
+        return ""
+    table = data.table("thresholds")
+    texts = []
+    several = table["group"].nunique() > 1
+    for (group, name), own in table.groupby(["group", "procedure"], sort=False):
+        procedure = f"{name} ({group})" if several else name
+        if len(data.people) == 1:
+            row = own.iloc[0]
+            if pd.notna(row["threshold"]):
+                between = f" (95 % {row['threshold_95']})" if isinstance(row.get("threshold_95"), str) else ""
+                texts.append(f"{in_short(row['threshold'])}{between} in {procedure}, of {row['trials']} answers")
+            continue
+        each = own[own["note"].isna()].groupby("person")["threshold_share"].mean().dropna()
+        if len(each):
+            words = with_spreads(pd.Series([each.mean()]), pd.Series([each.std()]))[0]
+            texts.append(f"{words} in {procedure} (n = {counted(len(each), 'person', 'people')})")
+    if not texts:
+        return f"Thresholds: none of {len(table)} could be given; thresholds.csv notes why."
+    kind = " (mean ± SD, as a share of the perturbation)" if len(data.people) > 1 else ""
+    return f"Thresholds{kind}: {listed(texts)}."
+
+
+# Warnings
+
+
+def _beyond_people(data: Data) -> list[str]:
+    """What the experiment asks for and simulated people lack, as the program noted in each session
+    (src/person/simulated_limits.cpp): what they did in its place looks like any other answer."""
+    notes = [str(note).partition(": warning: ")[2] for sitting in data.sittings for note in sitting.session.info.get("notes") or []]
+    whats = [note.partition(". ")[::2] for note in dict.fromkeys(notes) if "simulated people" in note]
+    out = [re.sub(r"^(.+?): ", r"'\1' ", what) + "." for what, _ in whats]
+    return [*out[:-1], f"{out[-1]} {whats[-1][1]}"] if out else []  # one remedy for all
+
+
+def _missed_solves(data: Data) -> str:
+    """Sessions whose ticks missed something, in a sentence."""
+    ticks, missed, people = 0, 0, set()
+    for sitting in data.sittings:
+        convergence = sitting.session.info.get("convergence") or {}
+        ticks += int(sitting.session.info.get("ticks") or 0)
+        if convergence.get("missed"):
+            missed += int(convergence["missed"])
+            people.add(sitting.person)
+    if not missed:
+        return ""
+    share = f"{100 * missed / ticks:.2g} % of " if ticks else ""
+    return (
+        f"In {missed} ticks ({share}{ticks}) the contact solver missed its tolerance: {', '.join(sorted(people)[:12])}"
+        f"{' and others' if len(people) > 12 else ''}. Look at the forces of these sessions before you use them."
+    )
+
+
+def shared_windows(adaptation: pd.DataFrame) -> str:
+    """Says of adaptation.csv whether early and late are means over some of the same trials; "" if they are not."""
+    least: dict[str, int] = {}
+    keys = [*sitting_columns(adaptation), "round"]
+    for case, own in adaptation.groupby(keys, sort=False, dropna=False):
+        blocks = own.loc[own["kind"] == "perturbed", "block"].unique()
+        measured = int(own.loc[own["block"].isin(blocks), "compensation"].notna().sum())
+        if len(blocks) == 1 and 0 < measured < 2 * _WINDOW:
+            least[str(blocks[0])] = min(measured, least.get(str(blocks[0]), measured))
+    if not least:
+        return ""
+    few = ", ".join(f"{block}: {count}" for block, count in least.items())
+    return (
+        f"Early and late share trials, and differ by less than what was learned: their block has fewer than {2 * _WINDOW} "
+        f"measured trials ({few}). Measure more of its trials, as by more force channels, or draw the curve."
+    )
