@@ -87,16 +87,20 @@ void report(const ReportOptions& options) {
     if (!options.out.empty()) make_folder(options.out);
     analysis::ReportResult result = write_tables_of(options);
     result.out = options.out;
-    std::vector<std::string> made;
+    std::string made;
     if (!options.tables) {
         app::draw_page(result, command_line(), app::PythonSays::on_terminal);
-        made.push_back(result.page());
+        made = result.page();
     }
+    std::vector<std::string> tables;
     for (const std::string& file : result.tables) {
         const std::string name = std::filesystem::path(file).filename();
-        if (std::ranges::find(made, name) == made.end()) made.push_back(name);  // of several paths
+        if (std::ranges::find(tables, name) == tables.end()) tables.push_back(name);
     }
-    fmt::print("{}: of {}\n", made.empty() ? "no table" : fmt::format("{}", fmt::join(made, ", ")),
+    if (!made.empty() && !tables.empty())
+        made += options.paths.size() > 1 ? "; in the folder of each path " : ", ";
+    made += fmt::format("{}", fmt::join(tables, ", "));
+    fmt::print("{}: of {}\n", made.empty() ? "no table" : made,
                counted(result.sessions, "session"));
 }
 

@@ -234,8 +234,9 @@ def _thresholds(data: Data) -> str:
 def _beyond_people(data: Data) -> list[str]:
     """What the experiment asks for and simulated people lack, as the program noted in each session
     (src/person/simulated_limits.cpp): what they did in its place looks like any other answer."""
-    notes = [str(note).partition(": warning: ")[2] for sitting in data.sittings for note in sitting.session.info.get("notes") or []]
-    whats = [note.partition(". ")[::2] for note in dict.fromkeys(notes) if "simulated people" in note]
+    noted = [str(note) for sitting in data.sittings for note in sitting.session.info.get("notes") or []]
+    notes = dict.fromkeys(note.partition(": warning: ")[2] for note in noted if "simulated people" in note)
+    whats = [note.partition(". ")[::2] for note in notes]
     out = [re.sub(r"^(.+?): ", r"'\1' ", what) + "." for what, _ in whats]
     return [*out[:-1], f"{out[-1]} {whats[-1][1]}"] if out else []  # one remedy for all
 
