@@ -184,7 +184,8 @@ class Reports(Pages):
         refused = subprocess.run([PROGRAM, "report", people + "/sim-001", people + "/sim-002"], capture_output=True, text=True)
         self.assertEqual(refused.returncode, 2)
         self.assertIn("--out", refused.stderr)
-        dihaptic("report", people + "/sim-001", people + "/sim-002", "--out", parent.name + "/both")
+        said = dihaptic("report", people + "/sim-001", people + "/sim-002", "--out", parent.name + "/both")
+        self.assertIn("/both/report.html; in the folder of each path adaptation.csv, ", said)
         self.assertIn("2 groups (sim-001, sim-002)", self.drawn(parent.name + "/both/report.html"))
 
     def test_without_the_python_package_it_says_so(self):
