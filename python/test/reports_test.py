@@ -27,6 +27,7 @@ from dihaptic.reports import sections, write_page
 from dihaptic.reports.models import notes_on_models
 from dihaptic.reports.page import Page, in_short
 from dihaptic.reports.results import results_of, shared_windows, warnings_of, with_spreads
+from dihaptic.reports.simulated import limits_of
 from dihaptic.reports.text import methods_of
 
 #: Fewer reaches of fitts-law: its distances and widths once.
@@ -260,6 +261,14 @@ class Reports(unittest.TestCase):
         self.assertEqual(text.count("Perturbation "), 6)
         self.assertTrue(text.endswith("The table has 2 further ones."), text)
 
+    def test_shares_of_answers_are_a_result(self):
+        trials = figures.read(self.fitts).table("trials")
+        trials["outcome"] = np.where(trials["distance_mm"] > 80, "longer", np.where(trials["trial_num"] % 2, "longer", "shorter"))
+        trials = trials.assign(width_mm=8)
+        text = " ".join(results_of(with_tables(self.fitts, trials=trials)))
+        wanted = r'Share of "\w+" \(mean ± SD over people\): .* \(40 mm\), .* and [01]\.\d+ \(160 mm\); n = 3 people'
+        self.assertRegex(text, wanted)
+
     def test_a_factor_that_goes_with_another_one_is_not_averaged_over(self):
         trials = figures.read(self.fitts).table("trials")
         trials["width_mm"] = trials["distance_mm"] / 5
@@ -308,17 +317,25 @@ class Reports(unittest.TestCase):
         for words in ("the pull", "In 7 ticks", "trials (67 %) were repeated"):
             self.assertTrue(any(words in text for text in texts), (words, texts))
 
-    def test_what_simulated_people_lack_is_said_once_with_its_remedy(self):
-        data = figures.read(self.fitts)
-        said = ["e.yaml:7: warning: ask: is a rating, which simulated people lack: arbitrary. Do not use it.",
-                "e.yaml:9: warning: left: asks about 'rough': simulated people do not. Do not use it.",
-                "e.yaml: warning: a body starts inside another. Move it."]
-        for sitting in data.sittings:
-            sitting.session.info["notes"] = said
-        self.assertEqual(warnings_of(data, {}), [
-            "'ask' is a rating, which simulated people lack: arbitrary.",
-            "'left' asks about 'rough': simulated people do not. Do not use it.",
-        ])
+
+class Simulated(unittest.TestCase):
+    """What simulated people cannot do is said with the result."""
+
+    def test_what_the_program_noted_in_their_sessions(self):
+        rest = "Rehearse the order and the timing of trials with it, but do not treat its figures as human data."
+        rating = "is a rating, of which there is no model: the answers of simulated people are arbitrary"
+        asks = "asks about mass_g: simulated people judge only lengths, and their answers and threshold are arbitrary"
+        pushes = "pushes with a motor: simulated people do not judge forces, and measures of it are arbitrary"
+        cases = (("noticed", rating), ("from above", asks), ("target", pushes))
+        notes = [f"a.yaml:5: warning: {name}: {what}. {rest}" for name, what in cases]
+        notes += [f"b: c.yaml:7: warning: tlx: {rating}. {rest}", "in 7 of 90 ticks the solver missed"]
+        for mover, wanted in (
+            ("simulated_person", [f"noticed, tlx: {rating}.", f"from above: {asks}.", f"target: {pushes}."]),
+            ("devices", []),
+        ):
+            data = unittest.mock.Mock(sample=figures.Sample("", mover, ""), tasks=[{}])
+            data.sessions = [unittest.mock.Mock(info={"notes": notes}), unittest.mock.Mock(info={})]
+            self.assertEqual(limits_of(data), wanted)
 
 
 class Models(unittest.TestCase):

@@ -989,7 +989,7 @@ def plans(data: Data) -> Iterator[Plan]:
         yield from _plans_of_functions(data, procedures)
         yield from _plans_of_thresholds(data, procedures)
         yield from _plans_of_courses(data, procedures)
-    yield from _plan_of_answers(data)
+    yield from plan_of_answers(data)
 
 
 def _parted(name: str, procedures: list[_Procedure]) -> Iterator[tuple[str, list[_Procedure]]]:
@@ -1132,7 +1132,8 @@ def _meaning(procedures: list[_Procedure]) -> str:
     return f' ("{words.pop()}")' if len(words) == 1 else ""
 
 
-def _plan_of_answers(data: Data) -> Iterator[Plan]:
+def plan_of_answers(data: Data) -> Iterator[Plan]:
+    """The figure of answers in two words by a numeric factor, of trials without a procedure."""
     trials = counting_trials(data)
     if "outcome" not in trials or "condition" not in trials:
         return

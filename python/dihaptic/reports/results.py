@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
-import re
 from typing import Any
 
 import pandas as pd
 
-from ..figures import fitts
+from ..figures import fitts, psychophysics
 from ..figures.conditions import averaged_over, axes_of_design, counting_trials, each_in_conditions
 from ..figures.data import Data, sitting_columns
 from ..figures.means import means_with_intervals
 from ..figures.words import counted, in_print, label, level, words_of
 from .page import in_short
+from .simulated import limits_of
 
 #: Measures that are in the sentences; the others are in the table.
 _MOST_MEASURES = 3
@@ -30,8 +30,8 @@ _MANY_REPEATED = 0.1
 
 
 def results_of(data: Data) -> list[str]:
-    """A sentence for each main result: what was learned, the thresholds, the first measures by condition, the outcomes."""
-    results = [_learned(data), _thresholds(data), _fitts(data), *_measured(data), _outcomes(data)]
+    """A sentence for each main result: what was learned, thresholds, answers, the first measures by condition, outcomes."""
+    results = [_learned(data), _thresholds(data), *_answered(data), _fitts(data), *_measured(data), _outcomes(data)]
     return [text for text in results if text]
 
 
@@ -43,8 +43,7 @@ def warnings_of(data: Data, told: dict[str, Any]) -> list[str]:
             f"Dihaptic does not yet measure the learning of these perturbations: {told['not_measured']}. Figures of "
             "trials under them are empty. The hand's movement is in trials.csv, and in full in session.nwb."
         )
-    if data.is_simulated and data.sample.moved_by == "simulated_person":
-        out += _beyond_people(data)
+    out += limits_of(data)
     if text := _missed_solves(data):
         out.append(text)
     if data.has("adaptation") and (text := shared_windows(data.table("adaptation"))):
@@ -99,6 +98,26 @@ def means_of(data: Data, measure: str, by: list[str], table: str = "trials") -> 
 
 
 # Results
+
+
+def _answered(data: Data) -> list[str]:
+    """The shares of answers at each level of a factor."""
+    out = []
+    for plan in psychophysics.plan_of_answers(data) if data.has("trials") else []:
+        points = plan.points(data, **plan.points_options)
+        each = points[points["of"] == "person"]
+        shares = each.groupby(["series", "x"], sort=False)["value"].agg(["mean", "std"]).reset_index()
+        unit = data.table("trials").attrs.get("units", {}).get(plan.points_options["x"], "")
+        words = with_spreads(shares["mean"], shares["std"])
+        cases = [", ".join(filter(None, [level(x, unit), series])) for x, series in zip(shares["x"], shares["series"])]
+        texts = [f"{value} ({case})" for value, case in zip(words, cases)][:MOST_LISTED]
+        more = f", and {len(shares) - MOST_LISTED} further conditions" if len(shares) > MOST_LISTED else ""
+        several = len(data.people) > 1
+        n = f"{counted(each['person'].nunique(), 'person', 'people')}, " if several else ""
+        n += counted(int(each["n"].sum()), "trial")
+        name = capital(str(plan.drawing_options["ylabel"]))
+        out.append(f"{name}{' (mean ± SD over people)' if several else ''}: {listed(texts)}{more}; n = {n}.")
+    return out
 
 
 def _fitts(data: Data) -> str:
@@ -187,17 +206,17 @@ def _learned(data: Data) -> str:
         return ""
     fits = data.table("fits")
     fits["round"] = fits["round"].fillna("").astype(str)
-    texts = []
+    cases = []
     several = fits["group"].nunique() > 1
     for (group, part), own in fits.groupby(["group", "round"], sort=False):
         of = ", ".join(filter(None, [group if several else "", f"round {part}" if part else ""]))
         known = [name for name in ("baseline", "early", "late") if name in own and own[name].notna().any()]
-        if not known:
-            continue
         each = own.groupby("person")[known].mean()
-        unit = in_print(str(own["unit"].iloc[0]))
-        windows = [f"{words} {unit} ({name})" for name, words in zip(known, with_spreads(each.mean(), each.std()))]
-        texts.append(f"{listed(windows)}{f' in {of}' if of else ''}")
+        cases += [(of, name, in_print(str(own["unit"].iloc[0])), each[name].mean(), each[name].std()) for name in known]
+    table = pd.DataFrame(cases, columns=["of", "window", "unit", "mean", "sd"])
+    words = zip(with_spreads(table["mean"], table["sd"]), table["unit"], table["window"])
+    table["words"] = [f"{value} {unit} ({window})" for value, unit, window in words]
+    texts = [f"{listed(list(own['words']))}{f' in {of}' if of else ''}" for of, own in table.groupby("of", sort=False)]
     people = fits["person"].nunique()
     spread = "mean ± SD over people" if people > 1 else "means over at most eight trials"
     n = f"; n = {counted(people, 'person', 'people')}" if people > 1 else ""
@@ -208,7 +227,8 @@ def _thresholds(data: Data) -> str:
     if not data.has("thresholds"):
         return ""
     table = data.table("thresholds")
-    texts = []
+    texts: list[str] = []
+    cases = []
     several = table["group"].nunique() > 1
     for (group, name), own in table.groupby(["group", "procedure"], sort=False):
         procedure = f"{name} ({group})" if several else name
@@ -220,25 +240,16 @@ def _thresholds(data: Data) -> str:
             continue
         each = own[own["note"].isna()].groupby("person")["threshold_share"].mean().dropna()
         if len(each):
-            words = with_spreads(pd.Series([each.mean()]), pd.Series([each.std()]))[0]
-            texts.append(f"{words} in {procedure} (n = {counted(len(each), 'person', 'people')})")
+            cases.append((each.mean(), each.std(), f"{procedure} (n = {counted(len(each), 'person', 'people')})"))
+    means, spreads = (pd.Series([case[i] for case in cases], dtype=float) for i in (0, 1))
+    texts += [f"{words} in {of}" for words, (*_, of) in zip(with_spreads(means, spreads), cases)]
     if not texts:
         return f"Thresholds: none of {len(table)} could be given; thresholds.csv notes why."
-    kind = " (mean ± SD, as a share of the perturbation)" if len(data.people) > 1 else ""
+    kind = " (mean ± SD, as shares of the perturbation or in the unit of the number's name)" if len(data.people) > 1 else ""
     return f"Thresholds{kind}: {listed(texts)}."
 
 
 # Warnings
-
-
-def _beyond_people(data: Data) -> list[str]:
-    """What the experiment asks for and simulated people lack, as the program noted in each session
-    (src/person/simulated_limits.cpp): what they did in its place looks like any other answer."""
-    noted = [str(note) for sitting in data.sittings for note in sitting.session.info.get("notes") or []]
-    notes = dict.fromkeys(note.partition(": warning: ")[2] for note in noted if "simulated people" in note)
-    whats = [note.partition(". ")[::2] for note in notes]
-    out = [re.sub(r"^(.+?): ", r"'\1' ", what) + "." for what, _ in whats]
-    return [*out[:-1], f"{out[-1]} {whats[-1][1]}"] if out else []  # one remedy for all
 
 
 def _missed_solves(data: Data) -> str:

@@ -22,6 +22,7 @@ from ..figures.words import counted, in_print, label, level, words_of
 from .models import models_table, notes_on_models
 from .page import Page, between, in_short, with_interval, without_empty
 from .results import means_of, results_of, warnings_of
+from .simulated import is_of_limits
 from .text import methods_of
 from .trials import trials_to_look_at
 
@@ -161,7 +162,7 @@ def _facts_of_session(page: Page, data: Data, told: dict[str, Any]) -> None:
         "devices": "; ".join(f"{device['finger']}: {device['model']}" for device in info.get("devices") or []),
         "end": str(info.get("finished") or ""),
         "contact": str(told.get("contact") or ""),
-        "notes": "; ".join(map(str, info.get("notes") or [])),
+        "notes": "; ".join(str(note) for note in info.get("notes") or [] if not is_of_limits(note)),
         "note by hand": str(told.get("note") or ""),
     }
     page.facts(facts)
