@@ -294,12 +294,13 @@ class Reports(unittest.TestCase):
         trials = figures.read(self.fitts).table("trials")
         trials.loc[trials.distance_mm == 40, "peak_speed_m_s"] = np.nan
         trials["not_measured"] = np.where(trials.distance_mm == 40, "peak_speed: no channel", "")
-        trials.loc[trials.index[-1], "not_measured"] = "peak_speed: too short"
-        trials.loc[trials.index[-1], "peak_speed_m_s"] = np.nan
+        for row, reason in ((-1, "peak_speed: 3 % of the way"), (-2, "peak_speed: 4 % of the way")):
+            trials.loc[trials.index[row], "not_measured"] = reason
+            trials.loc[trials.index[row], "peak_speed_m_s"] = np.nan
         page = Page("", "", "")
         sections._measures(page, with_tables(self.fitts, trials=trials))
         self.assertNotIn("no channel", page.html())
-        self.assertIn("too short (1)", page.html())
+        self.assertIn("... % of the way (2)", page.html())
 
     def test_medians_of_lifts_are_called_so(self):
         page = Page("", "", "")

@@ -116,7 +116,8 @@ def _shares(trials: pd.DataFrame, by: str, order: list[str]) -> pd.DataFrame:
 
 
 def missing_values(trials: pd.DataFrame) -> pd.DataFrame:
-    """What trials lack that trials like them have: a row for each `trial` (its index), `measure` and `reason`."""
+    """What trials lack that trials like them have: a row for each `trial` (its index), `measure` and `reason`, in which a
+    number that differs is "..."."""
     if "not_measured" not in trials or trials["not_measured"].notna().sum() == 0:
         return pd.DataFrame(columns=["trial", "measure", "reason"])
     words = trials["not_measured"].dropna().astype(str).str.split("; ").explode()
@@ -128,7 +129,8 @@ def missing_values(trials: pd.DataFrame) -> pd.DataFrame:
     lacks = each.groupby(["measure", "cell"])["trial"].nunique()
     nowhere = each.groupby("measure")["trial"].nunique() == len(trials)
     asked = [nowhere[m] or lacks[m, c] < sizes[c] for m, c in zip(each["measure"], each["cell"])]
-    return each[np.array(asked, dtype=bool)].drop(columns="cell")
+    each = each[np.array(asked, dtype=bool)].drop(columns="cell")
+    return each.assign(reason=_alike(each["reason"]))
 
 
 def _not_measured(trials: pd.DataFrame) -> pd.DataFrame:
@@ -136,7 +138,6 @@ def _not_measured(trials: pd.DataFrame) -> pd.DataFrame:
     each = missing_values(trials)
     if each.empty:
         return pd.DataFrame()
-    each["reason"] = _alike(each["reason"])
     out = each.groupby("reason").agg(n=("trial", "nunique"), measures=("measure", lambda names: ", ".join(dict.fromkeys(names))))
     out = out.sort_values("n", ascending=False, kind="stable").reset_index()
     return out.assign(of="not measured", total=len(trials), share=out["n"] / len(trials))

@@ -48,7 +48,7 @@ def add_sample(
     _result(page, data, told)
     drawn = draw_data(data, figures, jobs=jobs, progress=progress)
     tables: dict[str, Callable[[Page, Data], None]] = {
-        "Learning": _learning, "By condition": _measures, "Grip and lift": _lifts, "Thresholds": _thresholds,
+        "Learning": _learning, "Thresholds": _thresholds, "By condition": _measures, "Grip and lift": _lifts,
         "Movements": _corrections, "Quality of the data": _outcomes, "Over trials": _nothing,
     }  # fmt: skip
     for heading, add_tables in tables.items():
