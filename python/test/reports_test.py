@@ -269,6 +269,16 @@ class Reports(unittest.TestCase):
         wanted = r'Share of "\w+" \(mean ± SD over people\): .* \(40 mm\), .* and [01]\.\d+ \(160 mm\); n = 3 people'
         self.assertRegex(text, wanted)
 
+    def test_decimals_are_alike_in_all_rounds(self):
+        fits = pd.DataFrame({"person": ["a", "b"] * 2, "group": "", "round": ["one", "one", "two", "two"], "unit": "deg",
+                             "measure": "angle", "early": [1.0, 1.5, 10, 30], "late": [2.0, 2.25, 20, 50]})  # fmt: skip
+        data = figures.read(self.fitts)
+        data.__dict__.setdefault("_cache", {})["fits"] = fits
+        data.__dict__["tables"] = [*data.tables, "fits"]
+        numbers = re.findall(r"\d+(?:\.(\d+))?(?= ±| °)", results_of(data)[0])
+        self.assertEqual(len(numbers), 8)
+        self.assertEqual(len({len(decimals) for decimals in numbers}), 1, results_of(data)[0])
+
     def test_a_factor_that_goes_with_another_one_is_not_averaged_over(self):
         trials = figures.read(self.fitts).table("trials")
         trials["width_mm"] = trials["distance_mm"] / 5
