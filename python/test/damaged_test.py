@@ -237,9 +237,9 @@ class Damaged(unittest.TestCase):
 
     def test_a_damaged_table_is_no_picture(self):
         for name, change, said in (
-            ("trials.csv", lambda text: text.replace("trial_num", "number", 1), "trials.csv: error: has no whole number"),
-            ("lifts.csv", lambda text: text.replace("attempt", "try", 1), "lifts.csv: error: has no whole number"),
-            ("lifts.csv", lambda text: text.replace("\n1,", "\none,", 1), "lifts.csv: error: has no whole number"),
+            ("trials.csv", lambda text: text.replace("trial_num", "number", 1), "trials.csv: error: has a row without a whole number"),
+            ("lifts.csv", lambda text: text.replace("attempt", "try", 1), "lifts.csv: error: has a row without a whole number"),
+            ("lifts.csv", lambda text: text.replace("\n1,", "\none,", 1), "lifts.csv: error: has a row without a whole number"),
             ("trials.csv", lambda text: text + text.splitlines()[-1] + "\n", "trials.csv: error: lists an attempt twice"),
             ("lifts.csv", lambda text: text.replace("lift_off_s", "lift_off", 1), "is not a moment for alignment"),
             ("trials.csv", lambda text: "", "cannot be read as a table"),
