@@ -199,7 +199,7 @@ class Movements(unittest.TestCase):
     def test_whose_markers_are_no_fingers_are_told(self):
         found, said = self.hand(motive().replace("hand:thumb", "hand:a").replace("hand:index", "hand:b"))
         self.assertIsNone(found)
-        self.assertIn("no finger of the scene has such a name. Give the markers the names of the scene's fingers", said)
+        self.assertIn("no finger of the scene has any of these names. Give the markers the names of the scene's fingers", said)
 
 
 GOOD = "time_s,z_mm\n0,0\n0.4,30\n"

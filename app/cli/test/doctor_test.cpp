@@ -382,7 +382,7 @@ TEST(Doctor, TellsDisksThatOneShouldNotRecordTo) {
     EXPECT_EQ(kind_of_disk("overlay", System::installed).verdict, Verdict::ok);
     for (const char* type : {"nfs4", "cifs", "fuse.sshfs", "tmpfs"})
         EXPECT_EQ(kind_of_disk(type, System::installed).verdict, Verdict::note) << type;
-    EXPECT_NE(kind_of_disk("overlay", System::container).found.find("lost with it"),
+    EXPECT_NE(kind_of_disk("overlay", System::container).found.find("lost when it is removed"),
               std::string::npos);
     EXPECT_EQ(kind_of_disk("overlay", System::live).verdict, Verdict::lacks);
     EXPECT_EQ(kind_of_disk("ext4", System::live).verdict, Verdict::ok);  // the stick's own
