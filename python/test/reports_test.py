@@ -427,7 +427,7 @@ class Pages(unittest.TestCase):
         self.assertEqual(with_spreads(means, spreads), ["0.186 ± 0.025", "0.365 ± 0.050", "0.730 ± 0.110"])
         self.assertEqual(with_spreads(pd.Series([1, 1.5, 2]), pd.Series([0, 0, 0])), ["1.00", "1.50", "2.00"])
         self.assertEqual(with_spreads(pd.Series([-0.001]), pd.Series([1.0])), ["0.0 ± 1.0"])
-        self.assertEqual(with_spreads(pd.Series([0.234235, 0.276]), pd.Series([1e-9, np.nan])), ["0.2342", "0.2760"])
+        self.assertEqual(with_spreads(pd.Series([0.234235, 0.276]), pd.Series([1e-9, np.nan])), ["0.234", "0.276"])
 
     def test_a_table_that_is_too_wide_for_paper_is_in_pieces(self):
         page = Page("", "", "")

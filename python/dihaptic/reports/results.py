@@ -72,18 +72,20 @@ def capital(text: str) -> str:
 
 def with_spreads(means: pd.Series, spreads: pd.Series) -> list[str]:
     """ "0.69 ± 0.08": means with their standard deviations, all with as many decimals as two digits of the middle deviation
-    need; or, without any, as three digits of the largest mean. No mean has more than four digits: a smaller deviation is 0.
+    need; or, without any, as three digits of the largest mean. No mean has more than four digits, and a deviation below
+    them, of rounding, is left out.
 
     >>> with_spreads(pd.Series([0.1857, 0.7304]), pd.Series([0.0252, 0.11]))
     ['0.19 ± 0.03', '0.73 ± 0.11']
     """
-    known = spreads[spreads > 0]
-    # the larger of two in the middle: people's deviations have few digits that are known
     largest = means.abs().max()
-    size = max(known.quantile(0.5, interpolation="higher") / 10, largest / 1000) if len(known) else largest / 100
+    is_known = spreads > 1e-4 * largest
+    some = spreads[is_known]
+    # the larger of two in the middle: people's deviations have few digits that are known
+    size = max(some.quantile(0.5, interpolation="higher") / 10, largest / 1000) if len(some) else largest / 100
     digits = min(6, max(0, -math.floor(math.log10(size)))) if size > 0 else 0
     texts = [f"{round(mean, digits) + 0.0:.{digits}f}" for mean in means]  # + 0.0: no "-0.00"
-    return [text + (f" ± {spread:.{digits}f}" if round(spread, digits) > 0 else "") for text, spread in zip(texts, spreads)]
+    return [text + (f" ± {spread:.{digits}f}" if known else "") for text, spread, known in zip(texts, spreads, is_known)]
 
 
 def means_of(data: Data, measure: str, by: list[str], table: str = "trials") -> pd.DataFrame:
