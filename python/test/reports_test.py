@@ -261,6 +261,15 @@ class Reports(unittest.TestCase):
         self.assertEqual(text.count("Perturbation "), 6)
         self.assertTrue(text.endswith("The table has 2 further ones."), text)
 
+    def test_each_condition_has_its_own_n(self):
+        trials = figures.read(self.fitts).table("trials")
+        one = trials["person"] == trials["person"].iloc[0]
+        trials.loc[one & (trials["distance_mm"] == trials["distance_mm"].min()), "movement_time_s"] = np.nan
+        table = sections._by_condition(with_tables(self.fitts, trials=trials), ["movement_time_s", "peak_speed_m_s"], "trials")
+        self.assertEqual(table.groupby("measure")["n"].unique().map(list).to_dict(), {
+            "movement time [s]": ["2, 3, 3"], "peak speed [m/s]": [3],
+        })  # fmt: skip
+
     def test_shares_of_answers_are_a_result(self):
         trials = figures.read(self.fitts).table("trials")
         trials["outcome"] = np.where(trials["distance_mm"] > 80, "longer", np.where(trials["trial_num"] % 2, "longer", "shorter"))

@@ -239,7 +239,7 @@ def _by_condition(data: Data, measures: list[str], table: str) -> pd.DataFrame:
             for _, each in own.iterrows():
                 column = _level(each[columns], units.get(columns, "")) if columns else "mean"
                 row[column] = with_interval(each["mean"], each["low"], each["high"])
-            row["n"] = int(own["n"].max())
+            row["n"] = ", ".join(map(str, own["n"])) if own["n"].nunique() > 1 else int(own["n"].max())
             rows.append(row)
     out = pd.DataFrame(rows).fillna("-")
     return out[[*(name for name in out if name != "n"), "n"]] if "n" in out else out
