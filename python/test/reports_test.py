@@ -261,6 +261,11 @@ class Reports(unittest.TestCase):
         self.assertEqual(text.count("Perturbation "), 6)
         self.assertTrue(text.endswith("The table has 2 further ones."), text)
 
+    def test_each_factor_has_its_sentence(self):
+        text = " ".join(results_of(figures.read(self.fitts)))
+        for over in ("width", "distance"):
+            self.assertRegex(text, rf"Movement time \(mean[^.]*: [^;]*; n = [^;]*; averaged over {over}\.")
+
     def test_each_condition_has_its_own_n(self):
         trials = figures.read(self.fitts).table("trials")
         one = trials["person"] == trials["person"].iloc[0]

@@ -165,9 +165,11 @@ def _measured(data: Data) -> list[str]:
         known = counting_trials(data, "lifts")
         own = [("lifts", name) for name in _OF_LIFTS if name in known and known[name].notna().any()]
     axes = axes_of_design(data)
-    by = [axes["x"]] if axes else []
-    by += [name for name in (axes.get("colour"), axes.get("panel")) if name in _APART]
-    out = [_sentence(data, measure, by, table) for table, measure in own]
+    apart = [name for name in (axes.get("colour"), axes.get("panel")) if name in _APART]
+    main = [name for name in (axes.get("x"), axes.get("colour")) if name and name not in apart]
+    # each factor has its sentence: a mean over surfaces hides what the surfaces do
+    out = [_sentence(data, measure, [name, *apart], table) for table, measure in own for name in main]
+    out = out or [_sentence(data, measure, apart, table) for table, measure in own]
     if out and len(names) > _MOST_MEASURES:
         out[-1] += " The tables have the other measures."
     return out
