@@ -270,7 +270,12 @@ class Reports(unittest.TestCase):
         trials = figures.read(self.fitts).table("trials")
         one = trials["person"] == trials["person"].iloc[0]
         trials.loc[one & (trials["distance_mm"] == trials["distance_mm"].min()), "movement_time_s"] = np.nan
-        table = sections._by_condition(with_tables(self.fitts, trials=trials), ["movement_time_s", "peak_speed_m_s"], "trials")
+        data = with_tables(self.fitts, trials=trials)
+        table, counts = sections._by_condition(data, ["movement_time_s", "peak_speed_m_s"], "trials")
+        self.assertEqual(sorted(set(counts)), [2, 3])
+        page = Page("", "", "")
+        sections._measures(page, data)
+        self.assertIn("<td>2, 3, 3</td>", page.html())
         self.assertEqual(table.groupby("measure")["n"].unique().map(list).to_dict(), {
             "movement time [s]": ["2, 3, 3"], "peak speed [m/s]": [3],
         })  # fmt: skip

@@ -208,28 +208,30 @@ def _means(page: Page, data: Data, measures: list[str], table: str) -> None:
     """The means of measures of trials.csv or lifts.csv, by condition."""
     axes = axes_of_design(data)
     keys = 1 + sum(name in axes for name in ("colour", "panel"))
-    means = _by_condition(data, measures, table)
+    means, counts = _by_condition(data, measures, table)
     if means.empty:
         return
     caption = (
-        f"Means over {'trials' if len(data.people) == 1 else 'people'}{intervals(means['n'])}. Practice, catch trials and "
+        f"Means over {'trials' if len(data.people) == 1 else 'people'}{intervals(counts)}. Practice, catch trials and "
         "repeated attempts are left out; so are force channels, of measures that other trials have."
     )
     page.table(means, caption, keys=keys)
 
 
-def _by_condition(data: Data, measures: list[str], table: str) -> pd.DataFrame:
+def _by_condition(data: Data, measures: list[str], table: str) -> tuple[pd.DataFrame, pd.Series]:
     """Means of measures, with intervals: a row for each measure and combination of the other factors, and a column for each
-    level of the first factor."""
+    level of the first factor; and how many values each mean is over."""
     axes = axes_of_design(data)
     columns = axes.get("x", "")
     others = [axes[name] for name in ("colour", "panel") if name in axes]
     units = data.table("trials").attrs.get("units", {})
     known = counting_trials(data, table)
-    rows = []
+    rows: list[dict[str, Any]] = []
+    counts: list[int] = []
     for measure in (name for name in measures if known[name].notna().any()):
         by = [columns, *others] if columns else []
         means = means_of(data, measure, by, table)
+        counts += list(means["n"])
         unit = data.measure(measure, table).unit
         key = others if others[1:] else "".join(others)  # pandas gives a level for a name, and a tuple for a list
         for case, own in means.groupby(key, sort=False, dropna=False) if key else [((), means)]:
@@ -242,7 +244,8 @@ def _by_condition(data: Data, measures: list[str], table: str) -> pd.DataFrame:
             row["n"] = ", ".join(map(str, own["n"])) if own["n"].nunique() > 1 else int(own["n"].max())
             rows.append(row)
     out = pd.DataFrame(rows).fillna("-")
-    return out[[*(name for name in out if name != "n"), "n"]] if "n" in out else out
+    out = out[[*(name for name in out if name != "n"), "n"]] if "n" in out else out
+    return out, pd.Series(counts, dtype=int)
 
 
 def _lifts(page: Page, data: Data) -> None:
