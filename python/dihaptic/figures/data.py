@@ -25,6 +25,8 @@ SITTING = ("person", "group", "session", "study_session")
 #: Columns of trials.csv that describe a trial, or how it was done, and that are no measure.
 _END_OF_DESIGN = "attempt"
 _AFTER_MEASURES = ["not_measured", "simulated", "moved_by", "start_type", "replays"]
+#: Most trials in a window of a learning curve, such as early or late, in fits.csv.
+WINDOW = 8
 #: Columns of measures that tell what acted on the hand, not what it did.
 _NOT_BEHAVIOUR = ["field_share"]
 #: Values that differ by less than this share of their range are the same.

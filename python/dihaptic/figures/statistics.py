@@ -16,15 +16,14 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from .data import ASIDE, Data
+from .data import ASIDE, WINDOW, Data
 from .saving import is_changed, signed, write
 
 #: Figures of lifts.csv that are analysed, where the task does not measure the same.
 _OF_LIFTS = ["peak_grip_rate_N_s", "static_grip_N", "safety_margin"]
 #: What tells the sessions of a study apart.
 _OF_STUDY = ["study_session", "study_condition"]
-#: Trials of a block that show its late compensation, as in fits.csv; kinds that are not among them.
-_LATE = 8
+#: Kinds of trials that do not show a block's late compensation.
 _PROBES = ["catch", "visual_clamp"]
 #: Words of R that cannot be the name of a column in a formula.
 _R_WORDS = {
@@ -125,7 +124,7 @@ def _of_learning(data: Data) -> _Design | None:
     late = _late_blocks(table, fits)
     design = _Design(["adaptation"], {}, late=late, unit=unit)
     table = table[(table["block"] == table["round"].map(late)) & ~table["kind"].isin(_PROBES)]
-    table = table[table["compensation"].notna()].groupby(["person", *_sitting(table), "round"], sort=False).tail(_LATE)
+    table = table[table["compensation"].notna()].groupby(["person", *_sitting(table), "round"], sort=False).tail(WINDOW)
     _name_factors(data, table, ["group", "round", *_OF_STUDY], design)
     effects = _effects(table, "compensation", design)
     if not effects:
@@ -142,7 +141,7 @@ def _late_blocks(table: pd.DataFrame, fits: pd.DataFrame) -> dict[str, str]:
     for name, own in table[~table["kind"].isin(_PROBES) & table["compensation"].notna()].groupby("round", sort=False):
         late = fits[fits["round"] == name].set_index(by)["late"].dropna()
         for block, trials in own.groupby("block", sort=False):
-            last = trials.groupby(by).tail(_LATE).groupby(by)["compensation"].mean()
+            last = trials.groupby(by).tail(WINDOW).groupby(by)["compensation"].mean()
             both = pd.concat([last, late], axis=1, join="inner", keys=["last", "late"])
             if len(both) > 0 and np.allclose(both["last"], both["late"], rtol=1e-5, atol=1e-5):
                 out[str(name)] = str(block)
@@ -367,13 +366,13 @@ rows = rows.merge(lifts, how="left")
 
 def _python_late(design: _Design, sitting: list[str]) -> str:
     late = ", ".join(f"{_text(name)}: {_text(block)}" for name, block in design.late.items())
-    return f"""# The last {_LATE} measured trials of the late block of each round
+    return f"""# The last {WINDOW} measured trials of the late block of each round
 LATE = {{{late}}}
 rows = read("analysis-adaptation.csv")
 rows["round"] = rows["round"].fillna("").astype(str)
 rows = rows[(rows["block"] == rows["round"].map(LATE)) & (rows["unit"] == {_text(design.unit)})]
 rows = rows[~rows["kind"].isin([{_items(_PROBES)}])]
-rows = rows.dropna(subset=["compensation"]).groupby([{_items(["person", *sitting, "round"])}]).tail({_LATE})
+rows = rows.dropna(subset=["compensation"]).groupby([{_items(["person", *sitting, "round"])}]).tail({WINDOW})
 """
 
 
@@ -448,11 +447,11 @@ rows <- merge(rows, lifts, all.x = TRUE)
 
 def _r_late(design: _Design, sitting: list[str]) -> str:
     order = ", ".join(f"rows${name}" for name in ["person", *sitting, "round"])
-    return f"""# The last {_LATE} measured trials of the late block of each round
+    return f"""# The last {WINDOW} measured trials of the late block of each round
 rows <- read("analysis-adaptation.csv")
 rows$round[is.na(rows$round)] <- ""
 blocks <- {_vector(list(design.late.values()))}[match(rows$round, {_vector(list(design.late))})]
 rows <- rows[!is.na(blocks) & rows$block == blocks & !rows$kind %in% {_vector(_PROBES)} & rows$unit == {_text(design.unit)}, ]
 rows <- rows[!is.na(rows$compensation), ]
-rows <- do.call(rbind, lapply(split(rows, list({order}), drop = TRUE), tail, {_LATE}))
+rows <- do.call(rbind, lapply(split(rows, list({order}), drop = TRUE), tail, {WINDOW}))
 """

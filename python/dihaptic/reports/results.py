@@ -9,7 +9,7 @@ import pandas as pd
 
 from ..figures import fitts, psychophysics
 from ..figures.conditions import averaged_over, axes_of_design, counting_trials, each_in_conditions
-from ..figures.data import Data, sitting_columns
+from ..figures.data import WINDOW, Data, sitting_columns
 from ..figures.means import means_with_intervals
 from ..figures.words import counted, in_print, label, level, words_of
 from .page import in_short
@@ -23,8 +23,6 @@ _OF_LIFTS = ["peak_grip_N", "static_grip_N", "safety_margin"]
 MOST_LISTED = 12
 #: Columns over which no sentence takes a mean.
 _APART = ("group", "round", "study_session", "perturbation")
-#: Trials of a window of a learning curve at most, as in fits.csv.
-_WINDOW = 8
 #: The share of trials that were repeated from which on a reader is warned.
 _MANY_REPEATED = 0.1
 
@@ -282,12 +280,12 @@ def shared_windows(adaptation: pd.DataFrame) -> str:
     for case, own in adaptation.groupby(keys, sort=False, dropna=False):
         blocks = own.loc[own["kind"] == "perturbed", "block"].unique()
         measured = int(own.loc[own["block"].isin(blocks), "compensation"].notna().sum())
-        if len(blocks) == 1 and 0 < measured < 2 * _WINDOW:
+        if len(blocks) == 1 and 0 < measured < 2 * WINDOW:
             least[str(blocks[0])] = min(measured, least.get(str(blocks[0]), measured))
     if not least:
         return ""
     few = ", ".join(f"{block}: {count}" for block, count in least.items())
     return (
-        f"Early and late share trials, and differ by less than what was learned: their block has fewer than {2 * _WINDOW} "
+        f"Early and late share trials, and differ by less than what was learned: their block has fewer than {2 * WINDOW} "
         f"measured trials ({few}). Measure more of its trials, as by more force channels, or draw the curve."
     )
