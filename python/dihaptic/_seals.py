@@ -13,6 +13,8 @@ from ._head import most_of_recording, part_of, why_unreadable
 from .errors import Problem
 
 _NWB = "session.nwb"
+#: Files that every session has, but that versions before 0.3 did not seal.
+_SEALED_LATER = [_NWB, "settings.csv"]
 #: The largest table that the program seals (src/base/text_file.h) [bytes].
 _MOST_TABLE = 200_000_000
 #: Keys that every version writes into session.yaml before the first tick.
@@ -75,8 +77,10 @@ def _problem_of(folder: Path, info: dict[str, Any], name: str) -> Problem | None
         fault = _fault_of_input(folder / name, inputs[name])
         remedy = "Restore the recorded version from a backup, or from another session of the same experiment."
         return _warning(folder, name, fault, remedy) if fault else None
-    if name == _NWB:  # versions before 0.3 sealed the tables alone
-        fault = _fault_of_nwb(folder / name, sealed[name]) if name in sealed else ""
+    if name in _SEALED_LATER and name not in sealed:
+        fault = ""
+    elif name == _NWB:
+        fault = _fault_of_nwb(folder / name, sealed[name])
     elif name in sealed or (name in known and _is_sealed(info)):
         fault = _fault_of_table(folder / name, sealed.get(name))
     else:

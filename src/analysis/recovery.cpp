@@ -23,7 +23,8 @@ bool is_cut(const std::string& file) {
 }
 
 /// Rebuilds settings.csv from settings.yaml, with the origins that settings.csv still contains.
-void mend_settings(const recording::SessionFolder& folder, Diagnostics& diagnostics) {
+void mend_settings(const recording::SessionFolder& folder, recording::SessionInfo& info,
+                   Diagnostics& diagnostics) {
     frame::Settings settings;
     try {
         Diagnostics unreadable(UnknownKeys::are_left_out);
@@ -55,6 +56,7 @@ void mend_settings(const recording::SessionFolder& folder, Diagnostics& diagnost
                                     lost, table.rows.size()),
                         "");
     write_csv(table, folder.file("settings.csv"));
+    recording::unseal(info, "settings.csv");
 }
 
 /// Whether a YAML text has any control character, or an escape, which may stand for one: a large
@@ -168,7 +170,7 @@ Recovery recover_session(const recording::SessionFolder& folder,
     if (!out.had_ended || mended) out.info.state = recording::SessionState::recovered;
     diagnostics.add(folder.changed(out.info.inputs, Severity::warning));
     diagnostics.add(recording::broken_for_good(folder, out.info, Severity::warning));
-    mend_settings(folder, diagnostics);
+    mend_settings(folder, out.info, diagnostics);
     out.warnings = diagnostics.problems();
     for (const Problem& warning : out.warnings) add_note(out.info, warning.text());
     out.figures = finish_session(folder, out.info, progress);

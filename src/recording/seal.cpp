@@ -18,7 +18,10 @@ constexpr std::string_view kMade[] = {"trials.csv", "phases.csv",      "episodes
                                       "events.csv", "corrections.csv", "fault.csv"};
 /// Tables made before the first tick, or while the session ran.
 constexpr std::string_view kGiven[] = {"procedures.csv", "trials-before.csv", "movement-faults.csv",
-                                       "shown.csv",      "head.csv",          "heard.csv"};
+                                       "settings.csv",   "shown.csv",         "head.csv",
+                                       "heard.csv"};
+/// Every session has this table, but versions before 0.3 did not seal it.
+constexpr std::string_view kSealedLater = "settings.csv";
 
 /// Number of rows of a table in a CSV file, without its header; text in quotes may have several
 /// lines.
@@ -67,7 +70,9 @@ std::string fault_of(const SessionFolder& folder, std::string_view name, const T
     const std::string file(name);
     const bool there = is_there(folder.file(file));
     if (sealed == nullptr)
-        return there ? "did not exist when the session ended: it belongs to something else" : "";
+        return there && name != kSealedLater
+                   ? "did not exist when the session ended: it belongs to something else"
+                   : "";
     const std::string then =
         fmt::format("it had {} when the session ended", counted(sealed->rows, "row"));
     if (!there) return "is gone: " + then;
@@ -125,6 +130,10 @@ void seal(const SessionFolder& folder, SessionInfo& info) {
         tables.push_back({kNwb, info.ticks, folder.input(kNwb).checksum});
     info.tables = std::move(tables);
     info.seal = seal_of(info);
+}
+
+void unseal(SessionInfo& info, std::string_view name) {
+    std::erase_if(info.tables, [&](const TableSeal& table) { return table.file == name; });
 }
 
 bool is_sealed(const SessionInfo& info) {

@@ -33,6 +33,10 @@ std::vector<std::string> other_tables();
 /// cannot be made again.
 void seal(const SessionFolder& folder, SessionInfo& info);
 
+/// Forgets the seal of a table that was rebuilt although raw.log does not contain it; seal() then
+/// makes a new one.
+void unseal(SessionInfo& info, std::string_view name);
+
 /// Whether the session has seals. A running session has none, nor has one recorded by an older
 /// version.
 bool is_sealed(const SessionInfo& info);

@@ -136,5 +136,20 @@ TEST(Seal, IsRenewedOnlyForWhatIsMadeAnew) {
     EXPECT_NE(told.find("procedures.csv: warning: has been changed"), std::string::npos) << told;
 }
 
+TEST(Seal, OfSettingsIsNotExpectedOfOlderVersions) {
+    Sealed session;
+    session.write("settings.csv", "setting,value,origin\nsolver,newton,default\n");
+    EXPECT_EQ(session.told(session.info), "");
+    seal(session.folder, session.info);
+    EXPECT_EQ(session.told(session.info), "");
+    session.write("settings.csv", "setting,value,origin\nsolver,newton,scene\n");
+    EXPECT_NE(session.told(session.info).find("settings.csv: warning: has been changed"),
+              std::string::npos)
+        << session.told(session.info);
+    unseal(session.info, "settings.csv");
+    seal(session.folder, session.info);
+    EXPECT_EQ(session.told(session.info), "");
+}
+
 }  // namespace
 }  // namespace dihaptic::recording::seal_test
