@@ -45,7 +45,8 @@ def with_tables(path, **tables):
 def drawn_again(plan, points, data):
     """The figure of points that were kept in a file, which has no types."""
     kept = pd.read_csv(io.StringIO(points.to_csv(index=False)), float_precision="round_trip")
-    return plan.drawing(kept, **plan.options_of_drawing(data))
+    kept.attrs["mark"] = data.mark
+    return plan.drawing(kept, **plan.drawing_options)
 
 
 def likeness(figure):

@@ -165,7 +165,7 @@ class Paths(Drawn):
             speed = points.assign(median_m_s=points.up_mm, lower_m_s=points.up_mm - 1, upper_m_s=points.up_mm + 1)
             force = speed.rename(columns=lambda name: name.replace("_m_s", "_N")).assign(force="ideal")
             with self.subTest(count, size=size):
-                self.assertEqual(faults(figures.draw_reach_paths(points, size=size, mark="simulated")), [])
+                self.assertEqual(faults(figures.draw_reach_paths(points, size=size)), [])
                 self.assertEqual(faults(figures.draw_speed_profiles(speed, size=size)), [])
                 self.assertEqual(faults(figures.draw_channel_forces(force, size=size)), [])
 

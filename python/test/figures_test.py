@@ -92,8 +92,23 @@ class Figures(unittest.TestCase):
             self.assertFalse(script.with_suffix(".svg").exists())
             script.unlink()
             figures.draw(folder)
+            # another version explained the checksum in other words
+            text = script.read_text()
+            script.write_text(text[: text.rindex(": a script")] + ": of an earlier version.\n")
+            figures.draw(folder)
+            self.assertEqual(script.read_text(), text)
         self.assertTrue(script.with_suffix(".svg").exists())
         self.assertIn(f"{script.stem}: ", (script.parent / "captions.txt").read_text())
+
+    def test_figures_of_simulated_people_say_so(self):
+        data = figures.read(self.grip)
+        points = figures.means_by_condition(data, measures=["peak_grip_N"], x="mass_g", table="lifts")
+        words = [text.get_text() for text in figures.draw_conditions(points, x="mass_g").texts]
+        self.assertEqual(words, ["simulated"])
+        heavy = points[points["mass_g"] > 100]
+        self.assertEqual(len(figures.draw_conditions(heavy, x="mass_g").texts), 1)
+        points.attrs["mark"] = ""
+        self.assertEqual(len(figures.draw_conditions(points, x="mass_g").texts), 0)
 
     def test_some_of_the_people(self):
         options = {"measures": ["peak_grip_N"], "x": "mass_g", "table": "lifts"}

@@ -294,7 +294,7 @@ class Reports(unittest.TestCase):
         data = figures.read(self.fitts)
         data.__dict__.setdefault("_cache", {})["fits"] = fits
         data.__dict__["tables"] = [*data.tables, "fits"]
-        numbers = re.findall(r"\d+(?:\.(\d+))?(?= ±| °)", results_of(data)[0])
+        numbers = re.findall(r"\d+(?:\.(\d+))?(?= ±|°)", results_of(data)[0])
         self.assertEqual(len(numbers), 8)
         self.assertEqual(len({len(decimals) for decimals in numbers}), 1, results_of(data)[0])
 

@@ -13,7 +13,7 @@ from ..errors import NotThere, error
 from .data import ASIDE, SITTING, Data, checked_list, sitting_columns
 from .means import intervals, means_with_intervals
 from .saving import Plan
-from .style import COLOURS, MARKERS, WIDTHS, canvas, corner, fit_names, legend_above, same_limits, styled, wrapped
+from .style import COLOURS, MARKERS, WIDTHS, canvas, drawing, fit_names, legend_above, of_data, same_limits, wrapped
 from .words import counted, label, level, words_of
 
 #: Above these figures on the page of a report.
@@ -87,6 +87,7 @@ def check_column(table: pd.DataFrame, name: str) -> None:
         raise NotThere(name, "is not a column of these trials", columns, f"Columns: {', '.join(columns)}.")
 
 
+@of_data
 def means_by_condition(
     data: Data, *, measures: list[str], x: str, colour: str = "", panel: str = "", table: str = "trials"
 ) -> pd.DataFrame:
@@ -130,15 +131,14 @@ def means_by_condition(
     return out
 
 
-@styled
+@drawing
 def draw_conditions(
     points: pd.DataFrame, *, x: str, colour: str = "", panel: str = "", size: str = "one column", height_mm: float = 60,
-    order: dict[str, list[str]] | None = None, mark: str = "",
+    order: dict[str, list[str]] | None = None,
 ) -> Figure:  # fmt: skip
     """Draws means_by_condition(): a panel for each measure and each level of `panel`, and a colour for each of `colour`.
 
-    `order` has the levels of those columns that are words, in order; `mark` is a word for the
-    figure's corner, such as "simulated".
+    `order` has the levels of those columns that are words, in order.
 
     >>> from dihaptic import figures
     >>> data = figures.read(lift_session)
@@ -187,7 +187,6 @@ def draw_conditions(
     if colour:
         handles, names = all_axes[0].get_legend_handles_labels()
         legend_above(figure, handles, names, words_of(colour, units.get(colour, "")))
-    corner(figure, mark)
     return figure
 
 

@@ -16,7 +16,7 @@ from .conditions import counting_trials
 from .data import Data
 from .means import BY_T, intervals, means_with_intervals
 from .saving import Plan
-from .style import COLOURS, MARKERS, canvas, corner, legend_above, styled
+from .style import COLOURS, MARKERS, canvas, drawing, legend_above, of_data
 from .words import counted, level, split
 
 #: Above this figure on the page of a report.
@@ -30,6 +30,7 @@ _COLUMNS = [
 ]  # fmt: skip
 
 
+@of_data
 def fitts_law(data: Data) -> pd.DataFrame:
     """Movement time over the index of difficulty, and its regression line: of each person, and over people.
 
@@ -66,10 +67,9 @@ def fitts_law(data: Data) -> pd.DataFrame:
     return pd.concat([each.assign(of="person"), mean, *lines], ignore_index=True).reindex(columns=_COLUMNS)
 
 
-@styled
-def draw_fitts_law(points: pd.DataFrame, *, size: str = "one column", height_mm: float = 65, mark: str = "") -> Figure:
-    """Draws fitts_law(): people as dots, means with intervals, and the line; a colour for each group. `mark` is a word for
-    the figure's corner."""
+@drawing
+def draw_fitts_law(points: pd.DataFrame, *, size: str = "one column", height_mm: float = 65) -> Figure:
+    """Draws fitts_law(): people as dots, means with intervals, and the line; a colour for each group."""
     figure, (axes,) = canvas(size, height_mm)
     points = points.assign(group=points["group"].fillna("").astype(str))
     groups = list(dict.fromkeys(points["group"]))
@@ -87,7 +87,6 @@ def draw_fitts_law(points: pd.DataFrame, *, size: str = "one column", height_mm:
     axes.set_ylabel("movement time [s]")
     if len(groups) > 1:
         legend_above(figure, *axes.get_legend_handles_labels())
-    corner(figure, mark)
     return figure
 
 

@@ -18,7 +18,7 @@ from ..errors import NotThere, error
 from .data import Data, checked_list, sitting_columns
 from .means import BY_T, intervals, means_with_intervals
 from .saving import Plan
-from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, corner, fit_names, legend_above, same_limits, styled, wrapped
+from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, fit_names, legend_above, of_data, same_limits, wrapped
 from .words import counted, in_print, label, level, words_of
 
 #: Above these figures on the page of a report.
@@ -349,7 +349,7 @@ def _key(
 
 
 def _draw_courses(
-    points: pd.DataFrame, panels: list[tuple[str, pd.DataFrame, str]], size: str, height_mm: float, share: bool, mark: str
+    points: pd.DataFrame, panels: list[tuple[str, pd.DataFrame, str]], size: str, height_mm: float, share: bool
 ) -> Figure:
     """Panels of courses: each with its title, its points, and the label of its axis."""
     columns = _columns(points["last"].max(), len(panels), size)
@@ -387,7 +387,6 @@ def _draw_courses(
     handles, names = _key(points, groups, several, shaded, perturbed, catch)
     if len(names) > 1:
         legend_above(figure, handles, names)
-    corner(figure, mark)
     return figure
 
 
@@ -416,6 +415,7 @@ def _adaptation(data: Data, unit: str, parts: list[str] | None) -> pd.DataFrame:
     return table[table["part"].isin(parts)] if parts else table
 
 
+@of_data
 def learning_curve(data: Data, *, unit: str = "", rounds: list[str] | None = None, bin_trials: int = 1) -> pd.DataFrame:
     """Compensation over the trials of each round: of each person, mean over people, fitted two-rate model, perturbation.
 
@@ -437,25 +437,26 @@ def learning_curve(data: Data, *, unit: str = "", rounds: list[str] | None = Non
     return out
 
 
-@styled
+@drawing
 def draw_learning_curve(
-    points: pd.DataFrame, *, ylabel: str = "", size: str = "two columns", height_mm: float = 55, mark: str = ""
+    points: pd.DataFrame, *, ylabel: str = "", size: str = "two columns", height_mm: float = 55
 ) -> Figure:
     """Draws learning_curve(): a panel for each round, with equal limits, and a colour for each group.
 
     Blocks are named above, and those of washout, clamps, channels and catch trials shaded. `ylabel` is the label of the
-    axis, by default "compensation" with its unit; `mark` is a word for the figure's corner.
+    axis, by default "compensation" with its unit.
     """
     points = _frame(points)
     ylabel = ylabel or label("compensation", str(points["unit"].iloc[0]))
     parts = list(dict.fromkeys(points["part"]))
     panels = [(part if len(parts) > 1 else "", points[points["part"] == part], ylabel) for part in parts]
-    return _draw_courses(points, panels, size, height_mm, True, mark)
+    return _draw_courses(points, panels, size, height_mm, True)
 
 
 # Windows of trials
 
 
+@of_data
 def learning_windows(data: Data, *, unit: str = "", rounds: list[str] | None = None) -> pd.DataFrame:
     """The windows of fits.csv, such as baseline, early, late and washout: of each person, and means over people.
 
@@ -490,9 +491,9 @@ def learning_windows(data: Data, *, unit: str = "", rounds: list[str] | None = N
     return out.reindex(columns=columns)
 
 
-@styled
+@drawing
 def draw_learning_windows(
-    points: pd.DataFrame, *, ylabel: str = "", size: str = "one column", height_mm: float = 62, mark: str = ""
+    points: pd.DataFrame, *, ylabel: str = "", size: str = "one column", height_mm: float = 62
 ) -> Figure:
     """Draws learning_windows(): people as dots that are joined, and their mean with its interval.
 
@@ -524,7 +525,6 @@ def draw_learning_windows(
         same_limits([axes for axes, cell in zip(all_axes, cells) if cell[1] == side])
     if len(levels) > 1:
         legend_above(figure, [_dot(i) for i in range(len(levels))], [level(value) for value in levels])
-    corner(figure, mark)
     return figure
 
 
@@ -563,6 +563,7 @@ def _dots(axes: Axes, own: pd.DataFrame, windows: list[str], i: int, levels: int
 # Generalisation
 
 
+@of_data
 def generalisation_curve(data: Data) -> pd.DataFrame:
     """Compensation over the angle from the trained direction, from generalisation.csv: of each person, and their means.
 
@@ -582,8 +583,8 @@ def generalisation_curve(data: Data) -> pd.DataFrame:
     return out.reindex(columns=["part", "group", "angle_deg", "of", "person", "n", "value", "low", "high", "share"])
 
 
-@styled
-def draw_generalisation(points: pd.DataFrame, *, size: str = "one column", height_mm: float = 62, mark: str = "") -> Figure:
+@drawing
+def draw_generalisation(points: pd.DataFrame, *, size: str = "one column", height_mm: float = 62) -> Figure:
     """Draws generalisation_curve(): a colour for each group or round; the trained direction is at 0°."""
     points = _frame(points)
     figure, (axes,) = canvas(size, height_mm)
@@ -610,7 +611,6 @@ def draw_generalisation(points: pd.DataFrame, *, size: str = "one column", heigh
     axes.set_ylabel("compensation [°]")
     if len(levels) > 1:
         legend_above(figure, [_dot(i) for i in range(len(levels))], [level(value) for value in levels])
-    corner(figure, mark)
     return figure
 
 
@@ -630,6 +630,7 @@ def _of_session(data: Data, session: str, measures: list[str]) -> pd.DataFrame:
     return table[table["trial"].between(taken.min(), taken.max())] if len(taken) else table.iloc[:0]
 
 
+@of_data
 def measures_over_trials(data: Data, *, measures: list[str], session: str = "", bin_trials: int = 1) -> pd.DataFrame:
     """Measures of trials.csv over the trials of the session: of each person, and means over people.
 
@@ -654,9 +655,9 @@ def measures_over_trials(data: Data, *, measures: list[str], session: str = "", 
     return pd.concat(found, ignore_index=True)
 
 
-@styled
+@drawing
 def draw_measures_over_trials(
-    points: pd.DataFrame, *, size: str = "two columns", height_mm: float = 48, mark: str = ""
+    points: pd.DataFrame, *, size: str = "two columns", height_mm: float = 48
 ) -> Figure:
     """Draws measures_over_trials(): a panel for each measure, and a colour for each group.
 
@@ -670,7 +671,7 @@ def draw_measures_over_trials(
     for measure, own in points.groupby("measure", sort=False):
         unit = own["unit"].fillna("").iloc[0]
         panels.append(("", own, label(measure, unit)))
-    return _draw_courses(points, panels, size, height_mm, False, mark)
+    return _draw_courses(points, panels, size, height_mm, False)
 
 
 # Which figures a design calls for
@@ -794,10 +795,11 @@ def _plan_of_windows(data: Data, own: pd.DataFrame, options: dict[str, Any], uni
     also = " and ".join(word for word, there in (("clamp", clamp), ("washout", washout)) if there)
     about = [
         "Early and late: the first eight measured trials of the first perturbed block, and the last eight with that "
-        "perturbation, or all, if there are fewer",
+        "perturbation",
         f"{also}: the first{' or last' if clamp else ''} eight measured trials of the block" if also else "",
         "savings: the first eight measured trials of relearning less those of learning" if "savings" in windows else "",
         "rebound: the end of the clamp less what preceded it" if "rebound" in windows else "",
+        "where there are fewer than eight, all of them are taken",
     ]
     wide = len(windows) > 4 or (groups > 1 and rounds > 1) or max(groups, rounds) > 2
     return Plan(

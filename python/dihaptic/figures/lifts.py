@@ -16,7 +16,7 @@ from ..errors import NotThere, error
 from ..session import Session
 from .data import ASIDE, Data, sitting_columns
 from .saving import Plan
-from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, corner, legend_above, styled, wrapped
+from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, legend_above, of_data, wrapped
 from .words import counted, label, level
 
 Array = npt.NDArray[Any]
@@ -218,6 +218,7 @@ def _cells(frame: pd.DataFrame) -> Iterator[tuple[str, str, Array, int, int]]:
         yield panel, case, rows, len(rows), frame["person"].iloc[rows].nunique()
 
 
+@of_data
 def lift_curves(
     data: Data, *, colour: list[str] | None = None, panel: str = "", align: str = "lift_off",
     before: float = 0.8, after: float = 1.5, step: float = 0.01, catch: bool = False,
@@ -256,10 +257,9 @@ def lift_curves(
     return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=columns)
 
 
-@styled
+@drawing
 def draw_lift_curves(
     points: pd.DataFrame, *, align: str = "lift_off", legend: str = "", size: str = "one column", height_mm: float = 30,
-    mark: str = "",
 ) -> Figure:  # fmt: skip
     """Draws lift_curves(): rows of panels of `height_mm` [mm] each for grip, load, their ratio and height.
 
@@ -295,7 +295,6 @@ def draw_lift_curves(
     _widen(axes)
     figure.align_ylabels()
     _legend(figure, cases, legend, marks=False)
-    corner(figure, mark)
     return figure
 
 
@@ -309,6 +308,7 @@ def _limit_ratio(axes: Axes, points: pd.DataFrame) -> None:
 # Grip against load
 
 
+@of_data
 def grip_against_load(
     data: Data, *, colour: list[str] | None = None, panel: str = "", steps: int = 50, catch: bool = False
 ) -> pd.DataFrame:
@@ -361,9 +361,9 @@ def _slip_ratio(lifts: pd.DataFrame) -> float:
     return float(ratios.median())
 
 
-@styled
+@drawing
 def draw_grip_against_load(
-    points: pd.DataFrame, *, legend: str = "", size: str = "one column", height_mm: float = 70, mark: str = ""
+    points: pd.DataFrame, *, legend: str = "", size: str = "one column", height_mm: float = 70
 ) -> Figure:
     """Draws grip_against_load(): the load is on the abscissa, and lifting goes to the right; marks are the hold.
 
@@ -404,7 +404,6 @@ def draw_grip_against_load(
         axes[0].set_ylim(bottom=0)
     handles = [Line2D([], [], linestyle=":", color=QUIET, linewidth=0.9)] if slips else []
     _legend(figure, cases, legend, marks=True, dashed=False, more=handles, names=["slip"] if slips else [])
-    corner(figure, mark)
     return figure
 
 
@@ -416,6 +415,7 @@ def _slope(lines: pd.DataFrame) -> pd.Series:
 # Change over lifts
 
 
+@of_data
 def successive_lifts(
     data: Data, *, measures: list[str], colour: list[str] | None = None, repetition: bool = False, catch: bool = False
 ) -> pd.DataFrame:
@@ -457,10 +457,10 @@ def successive_lifts(
     return out.sort_values("condition", key=lambda cases: cases.map(rank), kind="stable").reset_index(drop=True)
 
 
-@styled
+@drawing
 def draw_successive_lifts(
     points: pd.DataFrame, *, legend: str = "", abscissa: str = "number of the lift", size: str = "two columns",
-    height_mm: float = 45, mark: str = "",
+    height_mm: float = 45,
 ) -> Figure:  # fmt: skip
     """Draws successive_lifts(): a panel of `height_mm` [mm] for each measure, with the names of blocks above.
 
@@ -491,7 +491,6 @@ def draw_successive_lifts(
     _name_blocks(axes, points, WIDTHS[size])
     figure.align_ylabels()
     _legend(figure, cases, legend, marks=True)
-    corner(figure, mark)
     return figure
 
 
@@ -537,6 +536,7 @@ def _name_blocks(axes: list[Axes], points: pd.DataFrame, width_mm: float) -> Non
 # Phases
 
 
+@of_data
 def lift_phases(data: Data, *, colour: list[str] | None = None, catch: bool = False) -> pd.DataFrame:
     """Durations of preload, loading and releasing [s] by condition, from lifts.csv.
 
@@ -567,9 +567,9 @@ def lift_phases(data: Data, *, colour: list[str] | None = None, catch: bool = Fa
     return out.sort_values("phase", key=lambda names: names.map(list(PHASES).index), kind="stable").reset_index(drop=True)
 
 
-@styled
+@drawing
 def draw_lift_phases(
-    points: pd.DataFrame, *, ordinate: str = "", size: str = "two columns", height_mm: float = 0, mark: str = ""
+    points: pd.DataFrame, *, ordinate: str = "", size: str = "two columns", height_mm: float = 0
 ) -> Figure:
     """Draws lift_phases(): a panel for each phase, and a line for each condition, dots, medians and quartiles.
 
@@ -606,7 +606,6 @@ def draw_lift_phases(
         axes[0].set_ylabel(ordinate)
     if cases == [""]:
         axes[0].set_yticks([])
-    corner(figure, mark)
     return figure
 
 

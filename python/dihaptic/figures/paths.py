@@ -20,7 +20,7 @@ from ..errors import Error, NotThere, error
 from .data import Data
 from .saving import Plan
 from .sessions import Sitting
-from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, corner, legend_above, styled, wrapped
+from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, legend_above, of_data, wrapped
 from .words import counted, level
 
 if TYPE_CHECKING:
@@ -459,6 +459,7 @@ def _chosen(by_colour: dict[str, list[_Reach]], most: int) -> dict[str, list[_Re
     return {name: [reach for key, reach in all_of if key == name] for name in by_colour}
 
 
+@of_data
 def reach_paths(data: Data, *, part: str = "", most: int = _MOST_PATHS) -> pd.DataFrame:
     """Paths of reaches in the plane in which they are drawn, from recordings: a row for each point, 5 ms apart.
 
@@ -507,10 +508,10 @@ def _marks_of(reach: _Reach, plane: Array, panel: str, colour: str) -> pd.DataFr
     })  # fmt: skip
 
 
-@styled
+@drawing
 def draw_reach_paths(
     points: pd.DataFrame, *, across: str = "to the right", up: str = "away from the body", legend: bool = True,
-    bar_mm: float = 20, size: str = "one column", height_mm: float = 70, mark: str = "",
+    bar_mm: float = 20, size: str = "one column", height_mm: float = 70,
 ) -> Figure:  # fmt: skip
     """Draws reach_paths() to scale: thin lines with a mark at their ends, circles where they start and where targets are.
 
@@ -529,7 +530,7 @@ def draw_reach_paths(
     lines = max(wrapped(_level(name), letters).count("\n") + 1 for name in panels) if len(panels) > 1 else 0
     each = min(height_mm, (WIDTHS[size] - 10) / columns * (high - low)[1] / (high - low)[0] + 3)
     named = legend and len([name for name in colours if name]) > 1
-    total = rows * (each + 4 * lines) + 6 + (8 if named else 0)
+    total = rows * (each + 4 * lines) + 7 + (8 if named else 0)
     figure, all_axes = canvas(size, total, rows, columns)
     for i, axes in enumerate(all_axes):
         if i >= len(panels):
@@ -550,7 +551,6 @@ def draw_reach_paths(
     if named:
         handles = [Line2D([], [], color=_HUES[i % 8], marker=MARKERS[i % 7], linewidth=0.8) for i in range(len(colours))]
         _legend(figure, handles, colours, "")
-    corner(figure, mark)
     return figure
 
 
@@ -640,6 +640,7 @@ def _scale_bar(axes: Axes, bar_mm: float, low: Array, high: Array) -> None:
 # Speed
 
 
+@of_data
 def speed_profiles(data: Data, *, part: str = "") -> pd.DataFrame:
     """Speed against time from movement onset, from recordings: median and quartiles over reaches, each 5 ms.
 
@@ -701,9 +702,9 @@ def _time_panels(panels: list[str], size: str, height_mm: float, legend: bool) -
     return figure, all_axes, columns
 
 
-@styled
+@drawing
 def draw_speed_profiles(
-    points: pd.DataFrame, *, size: str = "one column", height_mm: float = 50, legend: str = "", mark: str = ""
+    points: pd.DataFrame, *, size: str = "one column", height_mm: float = 50, legend: str = ""
 ) -> Figure:
     """Draws speed_profiles(): lines are medians, bands reach from quartile to quartile (with four colours or fewer).
 
@@ -733,7 +734,6 @@ def draw_speed_profiles(
     if len(colours) > 1:
         handles = [Line2D([], [], color=_HUES[j % 8], linestyle=_DASHES[j % 7]) for j in range(len(colours))]
         _legend(figure, handles, colours, legend)
-    corner(figure, mark)
     return figure
 
 
@@ -761,6 +761,7 @@ def _channel_stages(data: Data) -> dict[str, list[_Reach]]:
     return out
 
 
+@of_data
 def channel_forces(data: Data) -> pd.DataFrame:
     """Force of the hand on channels and the ideal force against time from movement onset: median and quartiles, each 5 ms.
 
@@ -782,9 +783,9 @@ def channel_forces(data: Data) -> pd.DataFrame:
     return pd.concat(parts, ignore_index=True)
 
 
-@styled
+@drawing
 def draw_channel_forces(
-    points: pd.DataFrame, *, size: str = "two columns", height_mm: float = 50, mark: str = ""
+    points: pd.DataFrame, *, size: str = "two columns", height_mm: float = 50
 ) -> Figure:
     """Draws channel_forces(): the hand's force as a line with a band from quartile to quartile, the ideal one dashed."""
     if points.empty:
@@ -805,7 +806,6 @@ def draw_channel_forces(
             axes.set_ylabel("force to the left [N]")
     handles = [Line2D([], [], color=COLOURS[0]), Line2D([], [], color="black", linestyle=(0, (4, 2)))]
     legend_above(figure, handles, ["on the channel", "ideal: would cancel the field"])
-    corner(figure, mark)
     return figure
 
 

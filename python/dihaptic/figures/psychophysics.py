@@ -19,7 +19,7 @@ from .conditions import counting_trials
 from .data import Data, sitting_columns
 from .means import BY_T, intervals, means_with_intervals
 from .saving import Plan
-from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, corner, fit_names, legend_above, styled, wrapped
+from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, fit_names, legend_above, of_data, wrapped
 from .words import counted, in_print, label, level, words_of
 
 #: Above these figures on the page of a report.
@@ -264,6 +264,7 @@ def _mean(values: pd.Series, logarithmic: bool) -> dict[str, Any]:
 _FUNCTION = [*_PANEL, "group", "of", "person", "n", "level", "value", "low", "high"]
 
 
+@of_data
 def psychometric_functions(data: Data, *, procedures: list[str] | None = None) -> pd.DataFrame:
     """Answers of procedures by level, with the fitted functions of thresholds.csv; nothing is fitted anew.
 
@@ -364,13 +365,13 @@ def _interval(text: Any) -> list[float]:
         return [np.nan, np.nan]
 
 
-@styled
+@drawing
 def draw_psychometric_functions(
-    points: pd.DataFrame, *, size: str = "one column", height_mm: float = 55, mark: str = ""
+    points: pd.DataFrame, *, size: str = "one column", height_mm: float = 55
 ) -> Figure:
     """Draws psychometric_functions(): a panel for each procedure, and a colour for each group.
 
-    `height_mm` is that of a row of panels; `mark` is a word for the figure's corner, such as "simulated".
+    `height_mm` is that of a row of panels.
 
     >>> import pandas as pd
     >>> common = {"procedure": "finger", "kind": "constant", "quantity": "width", "unit": "mm", "logarithmic": False}
@@ -399,7 +400,6 @@ def draw_psychometric_functions(
     _label_all(panels, x=None, y=f'share of "{answers[0]}"' if len(answers) == 1 else "share of yes", size=size)
     handles, names = _legend_of_functions(points, groups, several)
     legend_above(figure, handles, names)
-    corner(figure, mark)
     return figure
 
 
@@ -575,6 +575,7 @@ def _label_all(panels: list[tuple[Axes, pd.DataFrame]], *, x: str | None, y: str
 _THRESHOLD = ["measure", "quantity", "unit", "logarithmic", "procedure", "group", "of", "person", "n", "value", "low", "high"]
 
 
+@of_data
 def thresholds_by_procedure(
     data: Data, *, measure: str = "threshold_share", procedures: list[str] | None = None
 ) -> pd.DataFrame:
@@ -619,12 +620,11 @@ def thresholds_by_procedure(
     return _finished(rows, _THRESHOLD, procedures)
 
 
-@styled
-def draw_thresholds(points: pd.DataFrame, *, size: str = "one column", height_mm: float = 60, mark: str = "") -> Figure:
+@drawing
+def draw_thresholds(points: pd.DataFrame, *, size: str = "one column", height_mm: float = 60) -> Figure:
     """Draws thresholds_by_procedure(): people as dots, means with intervals; a panel for each quantity, a colour for each group.
 
-    Where all people did all procedures of a panel, a line joins each one's dots. `mark` is a word for the figure's corner,
-    such as "simulated".
+    Where all people did all procedures of a panel, a line joins each one's dots.
 
     >>> import pandas as pd
     >>> row = {"measure": "threshold_share", "quantity": "period", "unit": "mm", "logarithmic": False, "procedure": "ring finger"}
@@ -656,7 +656,6 @@ def draw_thresholds(points: pd.DataFrame, *, size: str = "one column", height_mm
     if len(groups) > 1:
         marks = _group_marks(groups)
         legend_above(figure, [handle for _, handle in marks], [name for name, _ in marks])
-    corner(figure, mark)
     return figure
 
 
@@ -684,6 +683,7 @@ def _people_and_mean(axes: Axes, own: pd.DataFrame, names: list[str], i: int, gr
 _COURSE = [*_PANEL, "group", "of", "person", "n", "answer", "trial_num", "level", "said_yes"]
 
 
+@of_data
 def procedure_courses(data: Data, *, procedures: list[str] | None = None) -> pd.DataFrame:
     """The levels that procedures chose, answer after answer.
 
@@ -753,11 +753,11 @@ def _mean_course(answers: pd.DataFrame, logarithmic: bool) -> Iterator[dict[str,
         yield {"answer": number, "n": mean["n"], "level": mean["value"]}
 
 
-@styled
-def draw_procedure_courses(points: pd.DataFrame, *, size: str = "one column", height_mm: float = 45, mark: str = "") -> Figure:
+@drawing
+def draw_procedure_courses(points: pd.DataFrame, *, size: str = "one column", height_mm: float = 45) -> Figure:
     """Draws procedure_courses(): a panel for each procedure. Of one person, yes is filled, no is hollow, reversals are ringed.
 
-    `height_mm` is that of a row of panels; `mark` is a word for the figure's corner, such as "simulated".
+    `height_mm` is that of a row of panels.
 
     >>> import pandas as pd
     >>> row = {"procedure": "up", "kind": "staircase", "quantity": "width", "unit": "mm", "logarithmic": False, "yes": "wider"}
@@ -780,7 +780,6 @@ def draw_procedure_courses(points: pd.DataFrame, *, size: str = "one column", he
     _level_axes(panels, "y")
     _label_all(panels, x="answer", y=None, size=size)
     legend_above(figure, *_legend_of_courses(points, groups, several))
-    corner(figure, mark)
     return figure
 
 
@@ -836,6 +835,7 @@ _SHARE = ["series", "of", "person", "n", "x", "value", "low", "high"]
 _SIDES = {-1: "left", 1: "right"}
 
 
+@of_data
 def answers_by_level(
     data: Data, *, x: str, answer: str, other: str, series: list[str] | None = None, side: str = ""
 ) -> pd.DataFrame:
@@ -920,15 +920,13 @@ def _order_of_series(own: pd.DataFrame, columns: list[str], data: Data) -> list[
     return list(dict.fromkeys(_name_of(values, columns, units) for values in ordered))
 
 
-@styled
+@drawing
 def draw_answers(
     points: pd.DataFrame, *, xlabel: str, ylabel: str, title: str = "", size: str = "one column", height_mm: float = 65,
-    mark: str = "",
 ) -> Figure:  # fmt: skip
     """Draws answers_by_level(): shares over levels, a colour for each series.
 
-    `xlabel`, `ylabel`: labels of the axes; `title`: that of the legend; `mark` is a word for the figure's corner, such as
-    "simulated".
+    `xlabel`, `ylabel`: labels of the axes; `title`: that of the legend.
 
     >>> from dihaptic import figures
     >>> points = figures.answers_by_level(figures.read(lift_session), x="trial_num", answer="done", other="dropped")
@@ -956,7 +954,6 @@ def draw_answers(
             Line2D([], [], color=COLOURS[i % 7], marker=MARKERS[i % 7], linestyle=_LINES[i % 7]) for i in range(len(names))
         ]  # fmt: skip
         legend_above(figure, handles, names, title)
-    corner(figure, mark)
     return figure
 
 

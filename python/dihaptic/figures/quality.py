@@ -15,7 +15,7 @@ from matplotlib.patches import Patch
 from ..errors import error
 from .data import Data
 from .saving import Plan
-from .style import COLOURS, MARKERS, QUIET, canvas, corner, legend_above, styled
+from .style import COLOURS, MARKERS, QUIET, canvas, drawing, legend_above, of_data
 from .words import counted, level, words_of
 
 #: Above these figures on the page of a report.
@@ -72,6 +72,7 @@ def _blocks(data: Data, trials: pd.DataFrame) -> list[str]:
 # Outcomes
 
 
+@of_data
 def trial_outcomes(data: Data) -> pd.DataFrame:
     """How attempts at trials ended, which of them were repeated, and which trials were not measured, and why.
 
@@ -156,14 +157,14 @@ def _alike(reasons: pd.Series) -> pd.Series:
     return pattern.map(names)
 
 
-@styled
+@drawing
 def draw_trial_outcomes(
-    points: pd.DataFrame, *, outcomes: list[str] | None = None, size: str = "two columns", height_mm: float = 0, mark: str = ""
+    points: pd.DataFrame, *, outcomes: list[str] | None = None, size: str = "two columns", height_mm: float = 0
 ) -> Figure:
     """Draws trial_outcomes(): stacked bars of outcomes by block, and what there is of people, repetitions, missing measures.
 
     `outcomes` names those that get a colour of their own, in this order; the default are the seven most frequent. Others
-    are one. `height_mm` 0: as high as its rows need. `mark` is a word for the figure's corner. Raises Error without points.
+    are one. `height_mm` 0: as high as its rows need. Raises Error without points.
     """
     if points.empty:
         raise error("there is no trial to draw", "Draw a table of trial_outcomes() with rows.")
@@ -195,7 +196,6 @@ def draw_trial_outcomes(
         axes.set_visible(False)
     handles = [Patch(facecolor=hue, hatch=hatch, edgecolor="white") for hue, hatch, _ in looks.values()]
     legend_above(figure, handles, [level(name) for name in looks], "outcome of the attempt" if len(parts) > 1 else "")
-    corner(figure, mark)
     return figure
 
 
@@ -324,6 +324,7 @@ def _name_rows(axes: Axes, names: list[str]) -> None:
 # Duration, force, and the exactness of the simulation
 
 
+@of_data
 def timing_and_force(data: Data) -> pd.DataFrame:
     """How long attempts took, how large forces were, and how many ticks of each person's were late or inexact.
 
@@ -384,12 +385,12 @@ def _ticks(data: Data) -> pd.DataFrame:
     return out[out["ticks"].notna()].assign(of="ticks")
 
 
-@styled
-def draw_timing_and_force(points: pd.DataFrame, *, size: str = "two columns", height_mm: float = 0, mark: str = "") -> Figure:
+@drawing
+def draw_timing_and_force(points: pd.DataFrame, *, size: str = "two columns", height_mm: float = 0) -> Figure:
     """Draws timing_and_force(): boxes of durations and peak forces by block, and a table of ticks by person.
 
     A box has the median and the quartiles of all attempts, and its whiskers the extremes; dots are people's medians.
-    `height_mm` 0: as high as its rows need. `mark` is a word for the figure's corner. Raises Error without points.
+    `height_mm` 0: as high as its rows need. Raises Error without points.
     """
     parts = [part for part in ("duration_s", "peak_force_N", "ticks") if (points["of"] == part).any()]
     if not parts:
@@ -412,7 +413,6 @@ def draw_timing_and_force(points: pd.DataFrame, *, size: str = "two columns", he
             continue
         _boxes(axes, own, blocks[:_MOST_BLOCKS], 20 if not wide or part == parts[0] else 0)
         _name_boxes(axes, part, float(largest.iloc[0]) if len(largest) else np.nan)
-    corner(figure, mark)
     return figure
 
 

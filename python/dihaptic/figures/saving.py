@@ -29,7 +29,7 @@ class Plan:
     """A figure that is to be drawn: which table of points, and how it is drawn.
 
     `points` is called with the Data and its options, and gives a table with a row for each point; `drawing` is called
-    with that table, its own options and the `mark` of the data, and gives matplotlib's Figure.
+    with that table and its own options, and gives matplotlib's Figure.
 
     >>> from dihaptic import figures
     >>> options = {"measures": ["peak_grip_N"], "x": "trial_num", "table": "lifts"}
@@ -51,11 +51,7 @@ class Plan:
     def make(self, data: Data) -> tuple[pd.DataFrame, Figure]:
         """Its points, and the figure. Raises Error."""
         points = self.points(data, **self.points_options)
-        return points, self.drawing(points, **self.options_of_drawing(data))
-
-    def options_of_drawing(self, data: Data) -> dict[str, Any]:
-        """The options of the drawing, with the mark of these data."""
-        return {**self.drawing_options, **({"mark": data.mark} if data.mark else {})}
+        return points, self.drawing(points, **self.drawing_options)
 
     def script(self, data: Data, folder: Path) -> str:
         """The Python script that draws this figure anew, to be kept in `folder`."""
@@ -77,7 +73,7 @@ data = {_reading(data, folder)}
 points = {_call(self.points, "data", self.points_options)}
 
 # size: "one column" (89 mm) or "two columns" (183 mm) of a journal
-figure = {_call(self.drawing, "points", self.options_of_drawing(data))}
+figure = {_call(self.drawing, "points", self.drawing_options)}
 # The panels are matplotlib's: figure.axes[0].set_ylim(0, 10)
 
 figures.save(figure, here / "{self.name}", points)
@@ -97,7 +93,8 @@ def is_changed(script: Path) -> bool:
     if not script.is_file():
         return False
     lines = script.read_text(encoding="utf-8", errors="replace").splitlines(keepends=True)
-    return not lines or lines[-1] != signed("".join(lines[:-1]))
+    # another version may have written the words behind the checksum
+    return not lines or lines[-1].split(":")[0] != signed("".join(lines[:-1])).split(":")[0]
 
 
 def _reading(data: Data, folder: Path) -> str:

@@ -77,6 +77,36 @@ def styled(function: _Function) -> _Function:
     return call  # type: ignore[return-value]
 
 
+def of_data(function: _Function) -> _Function:
+    """Notes in the table of points that a function makes of Data whether they are simulated, for drawing()."""
+
+    @wraps(function)
+    def call(data: Any, *arguments: Any, **options: Any) -> Any:
+        points = function(data, *arguments, **options)
+        points.attrs["mark"] = data.mark
+        return points
+
+    return call  # type: ignore[return-value]
+
+
+def drawing(function: _Function) -> _Function:
+    """Draws a table of points in the style of this package, with the table's mark, if any, in the lower right corner."""
+
+    @styled
+    @wraps(function)
+    def call(points: Any, *arguments: Any, **options: Any) -> Any:
+        figure = function(points, *arguments, **options)
+        if mark := points.attrs.get("mark", ""):
+            share = 7 / (figure.get_figheight() * 72)
+            engine = figure.get_layout_engine()
+            left, bottom, width, height = engine.get()["rect"]
+            engine.set(rect=(left, bottom + share, width, height - share))
+            figure.text(0.995, 0.1 * share, mark, ha="right", va="bottom", fontsize=5, color=QUIET)
+        return figure
+
+    return call  # type: ignore[return-value]
+
+
 @cache
 def _families() -> list[str]:
     """The typeface, and those installed that have the letters of other scripts: each letter is in the first that has it."""
@@ -142,14 +172,3 @@ def legend_above(figure: Figure, handles: list[Any], names: list[str], title: st
             return
         legend.remove()
         columns -= 1
-
-
-def corner(figure: Figure, mark: str) -> None:
-    """A short mark in the lower right corner, such as "simulated"; panels leave room for it."""
-    if not mark:
-        return
-    share = 7 / (figure.get_figheight() * 72)
-    engine = figure.get_layout_engine()
-    left, bottom, width, height = engine.get()["rect"]
-    engine.set(rect=(left, bottom + share, width, height - share))
-    figure.text(0.995, 0.1 * share, mark, ha="right", va="bottom", fontsize=5, color=QUIET)

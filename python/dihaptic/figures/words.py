@@ -56,8 +56,18 @@ def level(value: Any, unit: str = "") -> str:
         return value.replace("_", " ")
     if value is None or (isinstance(value, float) and math.isnan(value)):
         return "none"
-    text = f"{value:g}"
-    return f"{text} {in_print(unit)}" if unit and unit != "1" else text
+    return with_unit(f"{value:g}", unit)
+
+
+def with_unit(number: str, unit: str) -> str:
+    """A number with its unit; a degree sign stands next to it.
+
+    >>> with_unit("80", "g"), with_unit("30", "deg"), with_unit("0.5", "1")
+    ('80 g', '30°', '0.5')
+    """
+    if not unit or unit == "1":
+        return number
+    return number + ("" if in_print(unit) == "°" else " ") + in_print(unit)
 
 
 def counted(number: int, thing: str, things: str = "") -> str:

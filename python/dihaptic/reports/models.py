@@ -50,7 +50,7 @@ def models_table(fits: pd.DataFrame, single: bool) -> pd.DataFrame:
 
 def notes_on_models(data: Data) -> str:
     """Sentences on fits whose parameters mean little, with the number of people, or of curves, that they hold for: a
-    parameter lies at its bound (retention 0 or 1, learning 0 or 1), the two retentions are equal, or the model explains
+    parameter, or the end of one person's interval, lies at its bound (0 or 1), the two retentions are equal, or the model explains
     little of the variance, or less than a constant. Of many, these are the most frequent. "" without any."""
     fits = data.table("fits")
     said = []
@@ -60,6 +60,9 @@ def notes_on_models(data: Data) -> str:
             at = int(((known - bound).abs() < _NEAR).sum())
             if at:
                 said.append((at, len(known), f"{words} lies at its bound {bound}"))
+        reaching = sum(_reaches_bound(text) for text in fits.get(f"{name}_95", pd.Series(dtype=str)).dropna())
+        if reaching and len(data.people) == 1:  # of one person, the intervals are on the page
+            said.append((reaching, len(known), f"the interval of {words} reaches a bound"))
     if {"A_slow", "A_fast"} <= set(fits):
         known = (fits["A_slow"] - fits["A_fast"]).dropna()
         same = int((known < _NEAR).sum())
@@ -77,6 +80,12 @@ def notes_on_models(data: Data) -> str:
     said.sort(key=lambda each: -each[0] / each[1])
     texts = [f"in {n} of {counted(count, *of)} {what}" for n, count, what in said[:_MOST_NOTES]]
     return f"Read these parameters with care: {'; '.join(texts)}." if texts else ""
+
+
+def _reaches_bound(interval: str) -> bool:
+    """Whether an interval of fits.csv, such as "0.93 to 1", ends at 0 or 1, between which a rate lies."""
+    low, _, high = interval.partition(" to ")
+    return float(low) < _NEAR or float(high) > 1 - _NEAR
 
 
 def explained(adaptation: pd.DataFrame, column: str) -> pd.Series:

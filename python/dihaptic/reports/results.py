@@ -11,7 +11,7 @@ from ..figures import fitts, psychophysics
 from ..figures.conditions import averaged_over, axes_of_design, counting_trials, each_in_conditions
 from ..figures.data import WINDOW, Data, sitting_columns
 from ..figures.means import means_with_intervals
-from ..figures.words import counted, in_print, label, level, words_of
+from ..figures.words import counted, label, level, with_unit, words_of
 from .page import in_short
 from .simulated import limits_of
 
@@ -75,6 +75,8 @@ def with_spreads(means: pd.Series, spreads: pd.Series) -> list[str]:
 
     >>> with_spreads(pd.Series([0.1857, 0.7304]), pd.Series([0.0252, 0.11]))
     ['0.19 ± 0.03', '0.73 ± 0.11']
+    >>> with_spreads(pd.Series([-2.5]), pd.Series([1.2]))  # with a minus sign, not a hyphen
+    ['\N{MINUS SIGN}2.5 ± 1.2']
     """
     largest = means.abs().max()
     is_known = spreads > 1e-4 * largest
@@ -82,7 +84,8 @@ def with_spreads(means: pd.Series, spreads: pd.Series) -> list[str]:
     # the larger of two in the middle: people's deviations have few digits that are known
     size = max(some.quantile(0.5, interpolation="higher") / 10, largest / 1000) if len(some) else largest / 100
     digits = min(6, max(0, -math.floor(math.log10(size)))) if size > 0 else 0
-    texts = [f"{round(mean, digits) + 0.0:.{digits}f}" for mean in means]  # + 0.0: no "-0.00"
+    # + 0.0: no "-0.00"
+    texts = [f"{round(mean, digits) + 0.0:.{digits}f}".replace("-", "\N{MINUS SIGN}") for mean in means]
     return [text + (f" ± {spread:.{digits}f}" if known else "") for text, spread, known in zip(texts, spreads, is_known)]
 
 
@@ -181,7 +184,7 @@ def _is_index(data: Data) -> bool:
 def _sentence(data: Data, measure: str, by: list[str], table: str) -> str:
     """A measure in each condition: "Movement time (mean ± SD): 0.69 ± 0.08 s (40 mm), ..."."""
     units = data.table("trials").attrs.get("units", {})
-    unit = in_print(data.measure(measure, table).unit)
+    unit = data.measure(measure, table).unit
     name = words_of(measure, data.measure(measure, table).unit)
     if sum(words_of(each.column, each.unit) == name for each in data.measures) > 1:
         name = label(measure, data.measure(measure, table).unit)
@@ -192,7 +195,7 @@ def _sentence(data: Data, measure: str, by: list[str], table: str) -> str:
     for row, words in zip(shown.to_dict("records"), with_spreads(shown["mean"], shown["sd"])):
         named = [name for name in by if name != "perturbation" or pd.notna(row[name])]
         of = ", ".join(level(row[name], units.get(name, "")) for name in named)
-        value = f"{words} {unit if unit != '1' else ''}".strip()
+        value = with_unit(words, unit)
         texts.append(f"{value} ({of})" if of else value)
     more = f", and {len(means) - MOST_LISTED} further conditions" if len(means) > MOST_LISTED else ""
     trials = counted(int(means["trials"].sum()), "trial")
@@ -215,13 +218,13 @@ def _learned(data: Data) -> str:
         of = ", ".join(filter(None, [group if several else "", f"round {part}" if part else ""]))
         known = [name for name in ("baseline", "early", "late") if name in own and own[name].notna().any()]
         each = own.groupby("person")[known].mean()
-        cases += [(of, name, in_print(str(own["unit"].iloc[0])), each[name].mean(), each[name].std()) for name in known]
+        cases += [(of, name, str(own["unit"].iloc[0]), each[name].mean(), each[name].std()) for name in known]
     table = pd.DataFrame(cases, columns=["of", "window", "unit", "mean", "sd"])
     words = zip(with_spreads(table["mean"], table["sd"]), table["unit"], table["window"])
-    table["words"] = [f"{value} {unit} ({window})" for value, unit, window in words]
+    table["words"] = [f"{with_unit(value, unit)} ({window})" for value, unit, window in words]
     texts = [f"{listed(list(own['words']))}{f' in {of}' if of else ''}" for of, own in table.groupby("of", sort=False)]
     people = fits["person"].nunique()
-    spread = "mean ± SD over people" if people > 1 else "means over at most eight trials"
+    spread = "mean ± SD over people" if table["sd"].notna().any() else "means over at most eight trials"
     n = f"; n = {counted(people, 'person', 'people')}" if people > 1 else ""
     return f"{'Adaptation index' if _is_index(data) else 'Compensation'} ({spread}): {'; '.join(texts)}{n}." if texts else ""
 

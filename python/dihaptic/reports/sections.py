@@ -276,6 +276,8 @@ def _lifts(page: Page, data: Data) -> None:
     over = "Medians over lifts" if len(data.people) == 1 else "Means over people of each person's median"
     table = pd.DataFrame(rows).set_index("median of").T.rename_axis(columns=None).reset_index(names="median of")
     caption = f"{over}, practice and catch trials included; an incomplete lift counts for the figures that it has."
+    if "safety margin" in list(table["median of"]):
+        caption += " Safety margin: the share of the static grip that exceeds the least grip without slip."
     page.table(table, caption, keys=1)
     _previous_weight(page, data)
 

@@ -7,7 +7,7 @@ from typing import Any
 import pandas as pd
 
 from ..figures.data import Data, sitting_columns
-from ..figures.words import counted, in_print, level, words_of
+from ..figures.words import counted, in_print, level, with_unit, words_of
 from .page import in_short
 from .results import MOST_LISTED, capital, listed, with_spreads
 
@@ -96,8 +96,8 @@ def _design(data: Data) -> str:
         levels = [level(value) for value in data.levels(factor)]
         if factor in ("round", "study_session"):
             continue
-        unit = f" {in_print(units[factor])}" if factor in units else ""
-        text += f" The factor {words_of(factor, units.get(factor, ''))} had {len(levels)} levels: {listed(levels)}{unit}."
+        named = with_unit(listed(levels), units.get(factor, ""))
+        text += f" The factor {words_of(factor, units.get(factor, ''))} had {len(levels)} levels: {named}."
     conditions = _levels(trials, "condition")
     if len(conditions) > 1 and not data.factors:
         shown = listed(conditions) if len(conditions) <= MOST_LISTED else ", ".join(conditions[:MOST_LISTED]) + ", ..."
