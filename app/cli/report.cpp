@@ -9,6 +9,7 @@
 #include "base/plural.h"
 #include "command.h"
 #include "common/drawn_report.h"
+#include "session/study_session.h"
 #include "study_collection.h"
 
 namespace dihaptic::cli {
@@ -71,7 +72,8 @@ analysis::ReportResult write_tables_of(const ReportOptions& options) {
             const std::string folder =
                 is_study(path) ? sessions_of({path, options.rehearsed}) : path;
             result.add(analysis::write_tables(
-                folder, [&](double share) { line.show((before + share) / paths); }));
+                folder, [&](double share) { line.show((before + share) / paths); },
+                session::counts_in_study));
             ++before;
         }
     }

@@ -335,6 +335,15 @@ class Studies(Case):
             with self.assertRaisesRegex(dh.Error, "contains no completed sessions"):
                 figures.read(self.folder / "sessions/S04")
             edit(self.file, "complete: 0.9", "complete: 0.5")
+        # and in the program's tables over people
+        edit(broken / "session.yaml", "id: sim-S04", "id: S04")
+        for path in (self.file, self.folder / "sessions"):
+            self.assertIn("of 1 session", dihaptic("report", path, "--tables"))
+        edit(self.file, "complete: 0.5", "complete: 0.9")
+        for path in (self.file, self.folder / "sessions"):
+            self.assert_refused("S04: it ended before its trials were done",
+                                lambda path=path: dihaptic("report", path, "--tables"))  # fmt: skip
+        edit(self.file, "complete: 0.9", "complete: 0.5")
         task = broken / "task.yaml"
         whole = task.read_text()
         for old, new in (

@@ -176,6 +176,36 @@ std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::
     return out;
 }
 
+bool counts_in_study(const std::string& recorded, const recording::InStudy& place) {
+    std::error_code failed;
+    const fs::path here = fs::canonical(recorded, failed);
+    const fs::path person = here.parent_path().parent_path();
+    const fs::path beside = person.parent_path().parent_path();
+    for (fs::directory_iterator at(beside, failed), end; !failed && at != end;
+         at.increment(failed)) {
+        const std::string kind = at->path().extension().string();
+        if (kind != ".yaml" && kind != ".yml") continue;
+        try {
+            const study::StudyFile study = study::read_study(at->path().string());
+            const study::Roster roster = study::read_roster(study);
+            const auto member = std::ranges::find(roster.participants, person.filename().string(),
+                                                  &study::Member::id);
+            const auto spec =
+                std::ranges::find(study.sessions, place.session, &study::SessionSpec::name);
+            if (study.title != place.study || member == roster.participants.end() ||
+                spec == study.sessions.end())
+                continue;
+            const auto visits = visits_of(study, *member);
+            const study::Visit* const visit =
+                study::counted(study, visits, static_cast<size_t>(spec - study.sessions.begin()));
+            return visit != nullptr && fs::equivalent(visit->folder, here, failed);
+        } catch (const Error&) {
+            continue;  // another kind of file, or a study whose recordings cannot be read
+        }
+    }
+    return false;
+}
+
 bool recover_killed(const std::vector<study::Visit>& visits,
                     const std::function<void(const std::string& folder)>& tell) {
     bool any = false;

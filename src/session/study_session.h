@@ -25,6 +25,9 @@ recording::InStudy place_in(const study::StudyFile& study, const study::Member& 
 /// The recordings of a participant, by session, each in the order of its start. Throws Error when a
 /// recording cannot be read or is another participant's.
 std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::Member& member);
+/// Whether a recording counts as its session of the study, which may need only a share of its
+/// trials (`resuming`). Its folder lies in sessions/PARTICIPANT/SESSION beside the study's file.
+bool counts_in_study(const std::string& recorded, const recording::InStudy& place);
 /// Recovers the recordings whose programs were killed, so that it is known how far they came;
 /// `tell` is called before each. Returns whether there were any. Throws Error when one cannot be
 /// recovered.

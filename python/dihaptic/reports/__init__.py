@@ -58,13 +58,11 @@ def write_page(
         who = "Simulated. No person took part." if all(data.is_simulated for data in every) else ""
     page = Page(titles[0] if len(titles) == 1 else f"{len(titles)} experiments", who, _origin(every, told))
     sessions = sum(len(data.sessions) for data in every)
-    # the program leaves out every session that ended early, also one that counts in its study
-    counting = tuple(f"{session.folder}: it ended before" for data in every for session in data.sessions)
     for heading, texts in (
         (f"Changed since the session{'s' if sessions > 1 else ''} ended", told.get("changed")),
         ("Tables that could not be written", told.get("unwritten")),
         ("Of raw.log", told.get("faults")),
-        ("Left out", [text for text in told.get("left_out") or [] if not str(text).startswith(counting)]),
+        ("Left out", told.get("left_out")),
         ("Not read", [text for text in every[0].left_out if "left_out" not in told or "it is a link" in text]),
     ):
         if texts:

@@ -129,7 +129,8 @@ std::vector<SessionData> read_sessions(ReportResult& result, const std::string& 
 }
 
 /// Leaves out sessions that do not count: copies, parts of others, and those cut short.
-void leave_out(ReportResult& result, std::vector<SessionData>& sessions) {
+void leave_out(ReportResult& result, std::vector<SessionData>& sessions,
+               const CountsInStudy& counts) {
     // a session that is resumed by another one is part of it
     std::set<std::string> earlier;
     for (const SessionData& session : sessions) {
@@ -150,7 +151,9 @@ void leave_out(ReportResult& result, std::vector<SessionData>& sessions) {
         } else if (session.stands_in()) {
             result.left_out.push_back(session.folder.path() +
                                       ": a simulated person stood in for the participant");
-        } else if (session.is_cut_short()) {
+        } else if (session.is_cut_short() &&
+                   !(counts && session.info.in_study &&
+                     counts(session.folder.path(), *session.info.in_study))) {
             result.left_out.push_back(
                 session.folder.path() +
                 ": it ended before its trials were done; dihaptic resume continues it");
@@ -181,7 +184,8 @@ std::vector<FittedSession> fit_and_write(ReportResult& result, std::vector<Sessi
     return out;
 }
 
-ReportResult report_folder(const std::string& folder, const std::function<void(double)>& progress) {
+ReportResult report_folder(const std::string& folder, const std::function<void(double)>& progress,
+                           const CountsInStudy& counts) {
     const auto half = [&](double from) {
         return [&progress, from](double share) {
             if (progress) progress(from + 0.5 * share);
@@ -190,7 +194,7 @@ ReportResult report_folder(const std::string& folder, const std::function<void(d
     ReportResult result;
     result.paths = {folder};
     std::vector<SessionData> read = read_sessions(result, folder, half(0));
-    leave_out(result, read);
+    leave_out(result, read, counts);
     if (read.empty()) throw none_ended(folder, result.left_out);
     const std::vector<FittedSession> sessions = fit_and_write(result, std::move(read), half(0.5));
     result.sessions = static_cast<int>(sessions.size());
@@ -234,12 +238,13 @@ void ReportResult::add(const ReportResult& other) {
     add_all(samples, other.samples);
 }
 
-ReportResult write_tables(const std::string& path, const std::function<void(double)>& progress) {
+ReportResult write_tables(const std::string& path, const std::function<void(double)>& progress,
+                          const CountsInStudy& counts) {
     std::error_code unreadable;  // report_session() then reports that it is not a session
     const bool is_folder = fs::is_directory(path, unreadable);
     if (!is_folder || is_there(path + "/session.yaml") || is_there(path + "/raw.log"))
         return report_session(path, progress);
-    return report_folder(path, progress);
+    return report_folder(path, progress, counts);
 }
 
 }  // namespace dihaptic::analysis

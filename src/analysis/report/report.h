@@ -8,7 +8,7 @@
 
 #include "base/diagnostics.h"
 #include "base/table.h"
-#include "recording/moved_by.h"
+#include "recording/session.h"
 
 namespace dihaptic::analysis {
 
@@ -41,12 +41,17 @@ struct ReportResult {
     void add(const ReportResult& other);
 };
 
+/// Whether a study counts a session that ended early, by its folder and its place in the study.
+using CountsInStudy = std::function<bool(const std::string&, const recording::InStudy&)>;
+
 /// For one session, writes adaptation.csv, fits.csv, adaptation-blocks.csv, generalisation.csv and
 /// thresholds.csv into its folder, as far as there is something to write; reads its raw.log to the
 /// end, and says what is wrong with it. For a folder with sessions in it, at any depth, writes
 /// these tables of each session that counts, and population-people.csv, population-adaptation.csv,
 /// population-lifts.csv, population-thresholds.csv and population-measures.csv into the folder.
-/// Throws Error when there is no session.
-ReportResult write_tables(const std::string& path, const std::function<void(double)>& progress);
+/// Throws Error when there is no session. `counts`: of sessions in a folder that ended early, those
+/// that are counted all the same; empty: none.
+ReportResult write_tables(const std::string& path, const std::function<void(double)>& progress,
+                          const CountsInStudy& counts = {});
 
 }  // namespace dihaptic::analysis
