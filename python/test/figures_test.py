@@ -100,6 +100,28 @@ class Figures(unittest.TestCase):
         self.assertTrue(script.with_suffix(".svg").exists())
         self.assertIn(f"{script.stem}: ", (script.parent / "captions.txt").read_text())
 
+    def test_means_of_people_are_in_rows_and_in_columns(self):
+        long, wide = (pd.read_csv(self.grip / f"figures/means-{kind}.csv") for kind in ("long", "wide"))
+        lifts = pd.read_csv(self.grip / "lifts.csv")
+        trials = pd.read_csv(self.grip / "trials.csv").merge(lifts, on=["seed", "id", "trial_num", "attempt"])
+        trials = trials[~trials.kind.isin(["practice", "catch"])].drop_duplicates(["id", "trial_num"], keep="last")
+        each = trials.groupby(["id", "mass_g", "surface"])["static_ratio"].mean()
+        own = long[long.measure == "static_ratio"].set_index(["person", "mass_g", "surface"])["mean"]
+        pd.testing.assert_series_equal(own.sort_index(), each.sort_index(), check_names=False, rtol=1e-12)
+        for (person, mass, surface), mean in each.items():
+            column = f"static_ratio_{mass}_{surface.replace(' ', '_')}"
+            self.assertAlmostEqual(wide.set_index("person").loc[person, column], mean, delta=1e-9)
+        self.assertEqual(len(wide), 2)
+        for column in wide:
+            self.assertRegex(column, r"^[A-Za-z]\w*$")
+
+    def test_a_rating_is_a_measure(self):
+        rated = rehearsed("size-weight", self.folder.name, 2, [("repeats: 20", "repeats: 2")])
+        data = figures.read(rated)
+        self.assertEqual(data.measures[0].column, "heaviness")
+        lifts = figures.conditions.measures_of_lifts(data)  # without those that the task measures by other names
+        self.assertEqual(lifts, ["static_grip_N", "static_ratio", "loading_s"])
+
     def test_figures_of_simulated_people_say_so(self):
         data = figures.read(self.grip)
         points = figures.means_by_condition(data, measures=["peak_grip_N"], x="mass_g", table="lifts")

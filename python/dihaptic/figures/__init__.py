@@ -62,6 +62,7 @@ from .psychophysics import (
     thresholds_by_procedure,
 )
 from .quality import draw_timing_and_force, draw_trial_outcomes, timing_and_force, trial_outcomes
+from .people import write_means
 from .saving import Plan, save
 from .sessions import Sample, samples_in
 from .statistics import write_analyses
@@ -76,5 +77,5 @@ __all__ = [
     "draw_trial_outcomes", "fitts_law", "generalisation_curve", "grip_against_load", "learning_curve", "learning_windows",
     "lift_curves", "lift_phases", "means_by_condition", "measures_over_trials", "procedure_courses",
     "psychometric_functions", "reach_paths", "read", "samples_in", "save", "speed_profiles", "successive_lifts",
-    "thresholds_by_procedure", "timing_and_force", "trial_outcomes", "write_analyses",
+    "thresholds_by_procedure", "timing_and_force", "trial_outcomes", "write_analyses", "write_means",
 ]  # fmt: skip

@@ -254,11 +254,14 @@ class Data:
         trials = self.table("trials")
         columns = [str(column) for column in trials.columns]
         first = columns.index(_END_OF_DESIGN) + 1 if _END_OF_DESIGN in columns else len(columns)
+        # ratings stand among the design's columns, since the task can refer to them
+        asked = [state["ask"] for task in self.tasks for state in task.get("states") or [] if isinstance(state.get("ask"), dict)]
+        ratings = [str(ask["name"]) for ask in asked if ask.get("name") in columns[:first]]
         built_in = {name for name, _ in facts()["columns"]["trials.csv"]}
         numeric = trials.select_dtypes("number").columns
         return [
             self.measure(column)
-            for column in columns[first:]
+            for column in [*dict.fromkeys(ratings), *columns[first:]]
             if column in numeric and column not in _AFTER_MEASURES
             and column not in [*built_in, *_NOT_BEHAVIOUR, *self.factors] and trials[column].notna().any()
         ]  # fmt: skip

@@ -14,6 +14,7 @@ from pathlib import Path
 from ..errors import Error
 from . import conditions, fitts, learning, lifts, paths, psychophysics, quality
 from .data import Data, read
+from .people import write_means
 from .saving import Plan, is_changed, save, write
 from .sessions import Paths
 from .statistics import write_analyses
@@ -70,6 +71,7 @@ def draw_data(
         captions = "\n".join(f"{each.plan.name}: {each.plan.title}. {each.plan.caption}\n" for each in made)
         write(folder / "captions.txt", captions.encode())
     write_analyses(data, folder)
+    write_means(data, folder)
     return made
 
 

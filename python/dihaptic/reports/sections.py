@@ -11,7 +11,7 @@ import pandas as pd
 
 from .._head import why_unreadable
 from ..errors import error
-from ..figures.conditions import LIFT_MEASURES, axes_of_design, counting_trials
+from ..figures.conditions import axes_of_design, counting_trials, measures_of_lifts
 from ..figures.data import Data, sitting_columns
 from ..figures.drawing import Drawn, draw_data
 from ..figures.learning import learning_windows
@@ -272,7 +272,7 @@ def _lifts(page: Page, data: Data) -> None:
                 values = each.groupby("person")[name].median()
                 row[label(name, str(lifts.attrs.get("units", {}).get(name, "")))] = values.mean()
         rows.append(row)
-    _means(page, data, [name for name in LIFT_MEASURES if name in lifts], "lifts")
+    _means(page, data, measures_of_lifts(data), "lifts")
     over = "Medians over lifts" if len(data.people) == 1 else "Means over people of each person's median"
     table = pd.DataFrame(rows).set_index("median of").T.rename_axis(columns=None).reset_index(names="median of")
     caption = f"{over}, practice and catch trials included; an incomplete lift counts for the figures that it has."
