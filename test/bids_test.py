@@ -261,10 +261,10 @@ class DataSets(unittest.TestCase):
         self.assertEqual(rows[2]["participant"], "sim-004")
         # the same label for somebody else
         same = self.run_session(self.reaches, "--simulate", "--participant", "sim-0 04")
-        self.assertIn("is participant sim-004 there, but sim-0 04 here: they are different",
+        self.assertIn("is participant sim-004 in the data set, but sim-0 04 in this session",
                       dihaptic("export", same, "--bids", study, code=2))
         seed = self.run_session(self.reaches, "--simulate", "--participant", "sim-004", "--seed", "2")
-        self.assertIn("is of seed 1 there, but 2 here", dihaptic("export", seed, "--bids", study, code=2))
+        self.assertIn("is of seed 1 in the data set, but 2 in this session", dihaptic("export", seed, "--bids", study, code=2))
         shutil.copy(self.reaches, self.out + "/reach_turned.yaml")
         task = self.run_session(self.out + "/reach_turned.yaml", "--simulate", "--participant", "sim-004")
         self.assertIn("TaskName: is reach-turned, but reach_turned would have the same label",

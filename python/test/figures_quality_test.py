@@ -188,11 +188,12 @@ class Made(Drawn):
         trials = trials.drop_duplicates(["person", "trial_num"], keep="last").reset_index(drop=True)
         reaches = trials["block"] == "reaches"
         trials.loc[reaches, "not_measured"] = "tlx: not measured"
-        trials.loc[1, "not_measured"] = "tlx: not measured; speed: it covered 1 % of the way, less than 10 %; time: lift: dropped"
-        trials.loc[2, "not_measured"] = "tlx: not measured; speed: it covered 2 % of the way, less than 10 %"
+        trials.loc[1, "not_measured"] = (
+            "tlx: not measured; speed: the movement covered 1 % of the way, less than 10 %; time: lift: dropped")
+        trials.loc[2, "not_measured"] = "tlx: not measured; speed: the movement covered 2 % of the way, less than 10 %"
         own = quality.trial_outcomes(Few(trials))
         own = own[own["of"] == "not measured"].set_index("reason")
-        self.assertEqual(own["n"].to_dict(), {"it covered ... % of the way, less than 10 %": 2, "lift: dropped": 1})
+        self.assertEqual(own["n"].to_dict(), {"the movement covered ... % of the way, less than 10 %": 2, "lift: dropped": 1})
         self.assertEqual(own["measures"].to_dict()["lift: dropped"], "time")
         trials["not_measured"] = "tlx: not measured"  # nowhere: that must be seen
         own = quality.trial_outcomes(Few(trials))

@@ -352,8 +352,8 @@ class Simulated(unittest.TestCase):
     """What simulated people cannot do is said with the result."""
 
     def test_what_the_program_noted_in_their_sessions(self):
-        rest = "Rehearse the order and the timing of trials with it, but do not treat its figures as human data."
-        rating = "is a rating, of which there is no model: the answers of simulated people are arbitrary"
+        rest = "Rehearse the order and timing of trials with simulated people, but do not treat their figures as human data."
+        rating = "is a rating, for which there is no model: the answers of simulated people are arbitrary"
         asks = "asks about mass_g: simulated people judge only lengths, and their answers and threshold are arbitrary"
         pushes = "pushes with a motor: simulated people do not judge forces, and measures of it are arbitrary"
         cases = (("noticed", rating), ("from above", asks), ("target", pushes))

@@ -29,7 +29,7 @@ std::vector<double> measured(const std::vector<Trial>& trials, Meant meant) {
     return out;
 }
 
-/// 100 ln(a / b); NaN where one of them is not positive.
+/// 100 ln(a / b); NaN if either is not positive.
 double in_percent(double a, double b) {
     return a > 0 && b > 0 ? 100 * std::log(a / b) : kUnmeasured;
 }
@@ -80,7 +80,7 @@ bool is_perturbed(const Stretch& s) {
     return has_kind(s, TrialKind::perturbed);
 }
 
-/// Whether its perturbed trials are perturbed in opposite directions, as when each draws its own.
+/// Whether the stretch has perturbations of both signs, as when each trial draws its own.
 bool has_both_signs(const Stretch& s) {
     const auto any = [&](double sign) {
         return std::ranges::any_of(s.trials, [&](const Trial& t) {
@@ -102,14 +102,14 @@ bool only_catches(const Stretch& s) {
                        [](const Trial& t) { return t.kind == TrialKind::catch_trial; });
 }
 
-/// Trial::under of its perturbed trials; "" if there is none.
+/// The first Trial::under among the stretch's perturbed trials; "" if all are empty.
 std::string under(const Stretch& s) {
     for (const Trial& t : s.trials)
         if (t.kind == TrialKind::perturbed && !t.under.empty()) return t.under;
     return "";
 }
 
-/// Whether both have the same perturbation, as far as is known.
+/// Whether both stretches have the same perturbation, as far as is known.
 bool alike(const Stretch& a, const Stretch& b) {
     return under(a) == under(b) && std::abs(a.perturbation - b.perturbation) < kSame;
 }
@@ -118,7 +118,7 @@ Window savings(const std::vector<Stretch>& stretches) {
     const auto learned = [](const Stretch& s) { return std::abs(s.perturbation) > kSame; };
     const auto first = std::find_if(stretches.begin(), stretches.end(), learned);
     if (first == stretches.end()) return {};
-    bool between = false;  // whether there was another perturbation, or none, since
+    bool between = false;  // whether another perturbation, or none, came since
     for (auto later = first + 1; later != stretches.end(); ++later) {
         const bool same = std::abs(later->perturbation - first->perturbation) < kSame;
         if (same && between) {
@@ -132,14 +132,15 @@ Window savings(const std::vector<Stretch>& stretches) {
 }
 
 Window rebound(const std::vector<Stretch>& stretches) {
-    constexpr size_t kLast = 2;  // few, because compensation still changes at a reversal's end
+    constexpr size_t kLast = 2;  // few, because compensation still changes when a reversal ends
     double first = 0;
     for (size_t i = 1; i < stretches.size(); ++i) {
         const Stretch& before = stretches[i - 1];
         if (first == 0 && std::abs(before.perturbation) > kSame) first = before.perturbation;
         if (!stretches[i].clamp || first * before.perturbation >= 0) continue;
         const std::vector<double>& clamp = stretches[i].compensation;
-        // without channels in the opposite field, its end is not measured: the clamp begins there
+        // without channels in the opposite field, the clamp's first trials stand for that field's
+        // end
         const auto from = before.compensation.empty() ? first_of(clamp, kLast)
                                                       : last_of(before.compensation, kLast);
         return difference(last_of(clamp, kFewTrials), from, std::copysign(1.0, first));
@@ -155,7 +156,7 @@ void take_index(Trial& trial, double index, double field_share) {
     trial.perturbation = trial.clamp ? 0 : 100 * field_share;
 }
 
-/// Describes the curves, which are in percent.
+/// Names the curves' measure, and sets their unit to percent.
 void name_measure(std::vector<AdaptationCurve>& curves, const char* measure) {
     for (AdaptationCurve& curve : curves) {
         curve.unit = std::string(1, '%');
@@ -163,7 +164,7 @@ void name_measure(std::vector<AdaptationCurve>& curves, const char* measure) {
     }
 }
 
-/// Empties the trial's figures if a perturbation acts whose learning has no measure.
+/// Sets the trial's figures to NaN if a perturbation acts whose learning has no measure.
 void leave_out_unmeasured(Trial& trial, double share) {
     if (share == 0) trial.under.clear();
     if (trial.under.empty()) return;
@@ -332,7 +333,7 @@ std::string AdaptationCurve::mixed() const {
     const std::vector<Stretch> parts = stretches();
     const auto first = std::find_if(parts.begin(), parts.end(), is_perturbed);
     if (first == parts.end() || !has_both_signs(*first)) return "";
-    return "no early, late, catch, savings and rebound: the perturbation has both signs in " +
+    return "no early, late, catch, savings or rebound: the perturbation has both signs in " +
            first->block;
 }
 
@@ -348,21 +349,25 @@ void AdaptationCurve::list_landmarks(FigureLister& row) const {
     const bool known = !trials.empty() && (note().empty() || std::abs(perturbation()) > kSame);
     row("measure", measure, "", "angle, extent, adaptation_index, or the column of errors");
     row("unit", unit, "", "unit of the values below");
-    row("perturbation", known ? perturbation() : kUnmeasured, "1", "largest in magnitude");
+    row("perturbation", known ? perturbation() : kUnmeasured, "1",
+        "perturbation that is largest in magnitude");
     w.baseline.list(row, "baseline", "mean of the baseline before the first perturbed block");
     w.early.list(row, "early", "first eight measured trials of the first perturbed block");
-    w.late.list(row, "late",
-                "last eight measured trials of the last consecutive block with that perturbation");
-    w.catch_trials.list(row, "catch", "mean of the catch trials among these blocks");
-    w.clamp_first.list(row, "clamp_first",
-                       "first eight measured trials of the first clamp block after it");
-    w.clamp_last.list(row, "clamp_last", "last eight measured trials of that block");
-    w.washout_first.list(row, "washout_first",
-                         "first eight measured trials of the first washout block after it");
+    w.late.list(
+        row, "late",
+        "last eight measured trials of the last of the consecutive blocks with that perturbation");
+    w.catch_trials.list(row, "catch", "mean of the catch trials in these blocks");
+    w.clamp_first.list(
+        row, "clamp_first",
+        "first eight measured trials of the first clamp block after the first perturbed one");
+    w.clamp_last.list(row, "clamp_last", "last eight measured trials of the same clamp block");
+    w.washout_first.list(
+        row, "washout_first",
+        "first eight measured trials of the first washout block after the first perturbed one");
     w.savings.list(row, "savings",
                    "relearning: mean of the first eight measured trials of the next block with the "
-                   "first perturbation, after a block with another or none, less that of its first "
-                   "block; positive: in the direction of that perturbation");
+                   "first perturbation, after a block with another perturbation or none, less that "
+                   "of its first block; positive: in the direction of the first perturbation");
     w.rebound.list(row, "rebound",
                    "mean of the last eight measured trials of the first clamp block after the "
                    "opposite perturbation, less that of the last two measured trials of the block "
@@ -375,9 +380,10 @@ void AdaptationCurve::list_landmarks(FigureLister& row) const {
         });
     };
     row("measured", counted_as(false), "1",
-        "trials with a compensation; with an adaptation index those in channels");
+        "trials with a compensation; if it is an adaptation index, only those in channels");
     row("left_out", counted_as(true), "1",
-        "such trials without one: repeated attempts, and those whose reason not_measured gives");
+        "such trials without a compensation: repeated attempts, and trials for which not_measured "
+        "gives a reason");
 }
 
 Table block_table(const std::vector<AdaptationCurve>& curves) {
@@ -390,10 +396,10 @@ Table block_table(const std::vector<AdaptationCurve>& curves) {
             row("unit", curve.unit, "", "unit of the values below");
             const auto list = [&](const std::string& name, const Window& of, const char* what) {
                 of.list(row, name, what);
-                row(name + "_trials", of.trials, "1", "that were measured");
+                row(name + "_trials", of.trials, "1", "number of trials measured");
             };
-            list("first", block.first, "mean of the first eight trials at most");
-            list("last", block.last, "mean of the last eight trials at most");
+            list("first", block.first, "mean of at most the first eight trials");
+            list("last", block.last, "mean of at most the last eight trials");
             list("catch", block.catch_trials, "mean of the catch trials");
             list("inserted_clamps", block.inserted_clamps, "mean of clamps among other trials");
             add_row(table, row);
@@ -421,7 +427,7 @@ std::vector<AdaptationCurve> adaptation_curves(const TrialFile& trials,
         } else {
             extents = take_reach(trial, trials[i].measures) || extents;
         }
-        // the error seen in a repeated attempt remains; its compensation does not count
+        // the error seen in a repeated attempt is kept, but its compensation is not used
         if (trials[i].measures.attempt < last.at(trial.number)) trial.compensation = kUnmeasured;
         any = any || !std::isnan(trial.compensation);
         trial.under = unmeasured_in(asked.perturbation, unmeasured);
@@ -458,9 +464,9 @@ std::vector<AdaptationCurve> error_curves(const TrialFile& trials, const std::st
         trial.kind = asked.kind;
         const bool acts = !asked.perturbation.empty() && !is_clamp(trial.kind);
         trial.perturbation = acts ? asked.share : 0;
-        trial.compensation = trials.number(i, error);  // at first, the error
-        // a person who did not move saw no error; a repeated attempt taught something, but does not
-        // count
+        trial.compensation = trials.number(i, error);  // the error, until replaced below
+        // a person who did not move saw no error; a repeated attempt taught something, but its
+        // compensation is not used
         trial.clamp = is_clamp(trial.kind) || std::isnan(trial.compensation);
         if (trials[i].measures.attempt < last.at(trial.number)) trial.compensation = kUnmeasured;
     }
@@ -520,14 +526,14 @@ void list_fits(FigureLister& row, const std::optional<AdaptationFits>& fits, boo
     for (size_t i = 0; i < all.size(); ++i) {
         if (i == kTwoRate)
             row("two_rate_sd", fits ? fits->two_rate.residual_sd : kUnmeasured, "1",
-                "of the residuals");
+                "two-rate: standard deviation of the residuals");
         row(all[i].name, all[i].value, "1", all[i].what);
         if (in_full && i < kTwoRate)
             row(all[i].name + std::string("_95"), all[i].interval, "", "its profile interval");
     }
     if (in_full)
         row("single_rate_sd", fits ? fits->single_rate.residual_sd : kUnmeasured, "1",
-            "of the residuals");
+            "single-rate: standard deviation of the residuals");
 }
 
 }  // namespace dihaptic::analysis

@@ -4,12 +4,12 @@
 // With the handle at angle a from the target's direction, and shown at angle s, the perturbation is
 // f = s - a and the compensation x = -a: the error e = f - x is visible, except in an error clamp.
 // Extents are treated in the same way, as logarithms: if the handle moved by h, was shown to move
-// by s, and should have moved by w, f = ln(s / h), x = ln(w / h), in percent (of small changes; a
-// doubling is 69 %).
+// by s, and should have moved by w, f = ln(s / h), x = ln(w / h), in percent (approximately, for
+// changes; a doubling is 69 %).
 //
 // Force fields are measured in channels, by the adaptation index (docs/measures-of-behaviour.md): x
 // is the index and f the share of the field, both in percent. The hand's angle is not informative
-// there: a channel holds it at zero, whatever was learned.
+// in a channel, which holds it at zero, whatever was learned.
 #pragma once
 
 #include <map>
@@ -25,8 +25,8 @@
 
 namespace dihaptic::analysis {
 
-/// The last attempt at each trial, by trial number. Only that one counts: earlier ones had to be
-/// repeated.
+/// The last attempt at each trial, by trial number. Only this attempt is used: earlier ones had to
+/// be repeated.
 std::map<int, int> last_attempts(const rows::TrialFile& trials);
 
 /// The trials of one round of the task, or all trials of a task without rounds.
@@ -36,7 +36,7 @@ struct AdaptationCurve {
         std::string block;
         rows::TrialKind kind = rows::TrialKind::baseline;
         double perturbation = 0;  ///< f; 0 in a clamp
-        bool clamp = false;       ///< no error was seen
+        bool clamp = false;       ///< whether the person saw no error
         double compensation = 0;  ///< x; NaN where it was not measured
         /// Name of a perturbation in the trial whose learning has no measure; perturbation and
         /// compensation are then NaN. Empty if there was none.
@@ -47,10 +47,10 @@ struct AdaptationCurve {
     std::string unit = "deg";  ///< unit of f and x; "%" for extents and indices
     /// angle, extent, kAdaptationIndex, or a column of errors (analysis/error_scale.h)
     std::string measure = "angle";
-    std::optional<ErrorScale> errors = {};  ///< of a curve of errors
+    std::optional<ErrorScale> errors = {};  ///< for a curve of errors only
     std::vector<Trial> trials;
 
-    /// Whether only channels among the trials show the learning.
+    /// Whether only those trials that have channels show the learning.
     bool in_channels() const;
 
     /// Consecutive trials of one block.
@@ -93,8 +93,8 @@ struct AdaptationCurve {
     Windows windows() const;
     /// The reason why learning is not measured, or only in part; empty if it is measured.
     std::string note() const;
-    /// Why a first perturbed block in which the perturbation has both signs has no means: they
-    /// would be means of opposite learning. Empty if it has one sign only.
+    /// The reason why the first perturbed block has no means if its perturbations have both signs:
+    /// they would average opposite learning. Empty if all have the same sign.
     std::string mixed() const;
     /// Lists the unit, the perturbation, and the windows with their intervals.
     void list_landmarks(FigureLister& row) const;

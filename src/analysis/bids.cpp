@@ -84,7 +84,7 @@ class Exporter {
     std::string events_file(const char* extension) const {
         return fmt::format("{}_run-{:02}_events.{}", stem(), run_, extension);
     }
-    /// Path of such a file while it is being written.
+    /// Path of one of the run's files while it is being written.
     std::string making(const TrackingSystem& system, const std::string& what) const {
         return fmt::format("{}/{}_{}", making_, label(system.name), what);
     }

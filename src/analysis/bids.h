@@ -19,7 +19,7 @@ inline constexpr std::array kEventColumns = {"onset",         "duration", "trial
 
 struct Exported {
     std::string folder;            ///< folder of the exported files
-    std::vector<Problem> changed;  ///< changes in its tables since it ended: warnings
+    std::vector<Problem> changed;  ///< warnings of changes in its tables since it ended
     std::vector<std::string> log;  ///< faults of raw.log, in sentences
 };
 
@@ -29,7 +29,7 @@ struct Exported {
 Exported export_bids(const recording::SessionFolder& session, const std::string& data_set,
                      const std::function<void(double)>& progress);
 
-/// Whether the data set has a recording of the session. Throws Error when its tables cannot be
+/// Whether the data set contains a recording of the session. Throws Error when its tables cannot be
 /// read.
 bool is_exported(const recording::SessionFolder& session, const std::string& data_set);
 

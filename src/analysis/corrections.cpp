@@ -13,9 +13,9 @@
 namespace dihaptic::analysis {
 namespace {
 
-constexpr double kShortestTrial = 0.3;      // of a trial that counts [s]
+constexpr double kShortestTrial = 0.3;      // length of a trial that is used [s]
 constexpr double kLongestTrial = 1;         // [s]
-constexpr double kDerivativeWindow = 0.05;  // of the derivative [s]
+constexpr double kDerivativeWindow = 0.05;  // window of the derivative [s]
 constexpr size_t kFewest = 3;               // trials
 constexpr double kErrors = 3;               // standard errors by which the means have to differ ...
 constexpr double kDifferenceLasts = 0.02;   // ... for so long [s]
@@ -37,7 +37,7 @@ MeanVelocity mean_at(const std::vector<const Velocities*>& trials, size_t tick) 
     return out;
 }
 
-/// Number of ticks that nine tenths of the trials have, at least kShortestTrial.
+/// Number of ticks that nine tenths of the trials reach; no less than kShortestTrial.
 size_t most_have(const std::vector<const Velocities*>& trials, double tick) {
     std::vector<size_t> lengths;
     for (const Velocities* v : trials) lengths.push_back(v->size());
@@ -75,7 +75,7 @@ std::optional<double> rises_through(const std::vector<double>& curve, double lev
 struct Difference {
     std::vector<double> d;
     std::vector<double> error;
-    std::optional<size_t> peak;  // of the first excursion
+    std::optional<size_t> peak;  // tick of the first excursion's peak
 
     /// Whether the means differ at a tick, to the side of `sign`.
     bool differs(size_t i, double sign) const {
@@ -95,9 +95,9 @@ Difference difference(const std::vector<const Velocities*>& trials,
     return out;
 }
 
-/// The peak of the first excursion: the means differ for 20 ms to one side, and the difference then
-/// grows until it has fallen to half of its largest value. A later one, such as the way back after
-/// a jump that does not last, does not count.
+/// The tick of the first excursion's peak: the means differ for 20 ms to one side, and the
+/// difference then grows until it has fallen to half of its largest value. A later excursion, such
+/// as the way back after a jump that does not last, is ignored.
 std::optional<size_t> first_peak(const Difference& of, double tick) {
     const auto lasts = static_cast<size_t>(std::llround(kDifferenceLasts / tick));
     size_t in_a_row = 0;
@@ -126,7 +126,7 @@ void find_latency(const Difference& found, double tick, rows::CorrectionRow& row
     const auto quarter = rises_through(rise, 0.25 * rise[peak], peak);
     const auto three = rises_through(rise, 0.75 * rise[peak], peak);
     if (!quarter || !three) {
-        row.why = "the hand parts from the matched trials as the state begins, or before";
+        row.why = "the hand departs from the matched trials when the state begins, or earlier";
         return;
     }
     row.latency = (*quarter - (*three - *quarter) / 2) * tick;
@@ -144,7 +144,7 @@ rows::CorrectionRow find_correction(const std::vector<const Velocities*>& trials
     row.trials = static_cast<int>(with.size());
     row.matched = static_cast<int>(without.size());
     if (with.size() < kFewest || without.size() < kFewest) {
-        row.why = fmt::format("it takes {} trials of each kind", kFewest);
+        row.why = fmt::format("at least {} trials of each kind are needed", kFewest);
         return row;
     }
     row.compared = static_cast<double>(ticks) * tick;
@@ -201,7 +201,7 @@ void CorrectionFinder::add(const frame::Frame& frame) {
         return;
     }
     Trial& trial = attempt_of(frame);
-    if (gap) trial.whole = false;  // the state may have begun in it
+    if (gap) trial.whole = false;  // the state may have begun in the gap
     if (frame.phase == phase_ && trial.velocities.empty()) now_ = &trial;
     if (frame.task.outcome >= 0) trial.ended = true;
     if (now_ == nullptr || static_cast<double>(trial.velocities.size()) * tick_ >= kLongestTrial)
@@ -211,7 +211,7 @@ void CorrectionFinder::add(const frame::Frame& frame) {
 }
 
 const Velocities* CorrectionFinder::velocities_of(size_t i) const {
-    // part of a perturbation is another one
+    // a perturbation in part is a different perturbation
     if (asked_[i].kind == rows::TrialKind::practice || asked_[i].share != 1) return nullptr;
     const auto found = trials_.find(static_cast<int>(i) + 1);
     if (found == trials_.end()) return nullptr;

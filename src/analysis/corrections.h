@@ -1,6 +1,6 @@
 // Finds how soon a hand corrects its movement: the time at which the mean velocity in trials in
 // which something happens (a target or a cursor jumps, a force pushes) departs from that in matched
-// trials in which nothing does.
+// trials in which nothing happens.
 //
 //     d(t)  = mean v(t) in the trials - mean v(t) in the matched ones, along an axis, from the
 //             beginning of a state at t = 0 on
@@ -41,7 +41,7 @@ class CorrectionFinder {
 
     void add(const frame::Frame& frame);
     /// By round, condition and perturbation, in the order of their first trials. The last attempt
-    /// at each trial counts; practice does not.
+    /// at each trial is used; practice is left out.
     std::vector<rows::CorrectionRow> rows() const;
 
   private:
@@ -61,9 +61,9 @@ class CorrectionFinder {
     };
 
     Trial& attempt_of(const frame::Frame& frame);
-    /// Null if the trial does not count.
+    /// Null if the trial is not used.
     const Velocities* velocities_of(size_t trial) const;
-    /// Whether nothing happens in a trial that can be compared with those of `condition`.
+    /// Whether a trial is one in which nothing happens, to be compared with those of `condition`.
     bool is_matched(const rows::AskedRow& row, const std::string& condition) const;
     /// The perturbation of the matched trials: the group's own, which their conditions make
     /// harmless, or else none.
@@ -76,7 +76,7 @@ class CorrectionFinder {
     int phase_ = -1;
     double tick_ = 1e-3;
     std::map<int, Trial> trials_;
-    int64_t sequence_ = -1;  // of the last frame
+    int64_t sequence_ = -1;  // sequence number of the last frame
     Trial* now_ = nullptr;   // the attempt in which the state has begun
 };
 

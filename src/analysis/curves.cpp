@@ -54,7 +54,7 @@ class CurveLister {
     std::vector<Curve> curves;
     std::vector<std::string> lists;
 
-    // as a visitor
+    // called by visit()
     template <class T>
     void operator()(const T&, const frame::Term& term) {
         if constexpr (!std::is_same_v<T, Time>) {
@@ -105,7 +105,7 @@ class TickRow {
         return row_.numbers;
     }
 
-    // as a visitor
+    // called by visit()
     template <class T>
     void operator()(const T& value, const frame::Term& term) {
         if constexpr (!std::is_same_v<T, Time>) row_(value, term);
@@ -130,10 +130,10 @@ class TickRow {
 
 struct Column {
     std::string name;
-    size_t index = 0;  ///< in the tick's row
+    size_t index = 0;  ///< index in the tick's row
 };
 
-/// All possible columns, with the name by which each is requested.
+/// A name that may be requested, and its columns.
 struct Known {
     std::string asked;
     std::vector<Column> columns;
@@ -177,7 +177,7 @@ std::vector<Column> columns_of(const std::vector<std::string>& names, const Curv
         }
     }
     diagnostics.throw_if_errors();
-    // each once, with the trial before all others
+    // each column once; the trial's column is always written, before all others
     std::vector<Column> once;
     for (const Column& column : out) {
         const bool there = std::ranges::find(once, column.name, &Column::name) != once.end();

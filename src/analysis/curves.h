@@ -4,10 +4,10 @@
 //   trial                  its number, from 1; 0: none
 //   grip_force_N, ...      requested quantities, in SI units
 //
-// Quantities have the names in docs/quantities.md; for a finger, body or joint, the quantity
-// follows its name and a dot, and a component follows another dot: block.position.z. Without a
-// component, a vector has a column for each. Unmeasured values are empty cells. Ticks are read from
-// raw.log one after the other, so that memory does not grow with the session's length.
+// Quantities are named as in docs/quantities.md; for a finger, body or joint, the quantity follows
+// its name and a dot, and a component follows another dot: block.position.z. Without a component, a
+// vector has a column for each. Unmeasured values are empty cells. Ticks are read from raw.log one
+// after the other, so that memory does not grow with the session's length.
 #pragma once
 
 #include <functional>

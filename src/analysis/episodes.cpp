@@ -95,7 +95,8 @@ void measure_slide(const GraspTrace& trace, const ObjectFacts& object, Episode& 
     double closed_form = 0;
     for (size_t i = out.range.first + 1; i < out.range.last; ++i) {
         const GraspTrace::Sample& s = samples[i];
-        // a step's force times the mean of the velocities before and after is the change of energy
+        // h times a step's force times the mean of the velocities before and after it is its change
+        // of energy
         const Vec3 v = (samples[i - 1].v_sliding + s.v_sliding) / 2;
         out.distance += h * v.norm();
         if (s.support < 0)

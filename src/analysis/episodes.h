@@ -10,9 +10,9 @@
 //
 //         `friction_ratio` is the left side over the right: 1 while the object does not turn. A
 //         block let go at v stops within v^2 / (2 mu g); one that is pushed steadily takes mu m g.
-// flight  nothing touches the object. Figures: its velocity when let go over the hand's (the mean
-//         of the handles that let go, along it), and its largest distance from the parabola of its
-//         first step.
+// flight  nothing touches the object. Figures: the ratio of its velocity at release to the hand's
+//         (the mean velocity of the handles that release it, along its own), and its largest
+//         distance from the parabola of its first step.
 #pragma once
 
 #include <vector>
@@ -26,7 +26,7 @@ namespace dihaptic::analysis {
 /// An episode, with its position in the trace.
 struct Episode : rows::EpisodeRow {
     Range range;                  ///< samples of the trace
-    std::vector<size_t> fingers;  ///< fingers that press the object; flight: fingers that let it go
+    std::vector<size_t> fingers;  ///< fingers that press the object; flight: those that released it
 };
 
 /// Properties that determine the object's mechanics; NaN when unknown.
@@ -35,7 +35,7 @@ struct ObjectFacts {
     Vec3 gravity = Vec3::Constant(kUnmeasured);
     std::vector<double> friction;         ///< coefficient with each body of the scene
     std::vector<double> finger_friction;  ///< coefficient with each finger
-    bool flies = true;  ///< an untouched object falls: no joint and no rail holds it
+    bool flies = true;  ///< whether an untouched object falls: no joint or rail holds it
 };
 
 /// Episodes in order of time. A state that lasts less than 20 ms is not an episode.

@@ -56,7 +56,7 @@ std::optional<ErrorScale> scale_of_errors(std::span<const double> errors,
     ErrorLine best;
     for (int a = 0; a <= kSteps; ++a) {
         for (int b = 0; b <= kSteps; ++b) {
-            // finer near a retention of 1 and near a learning rate of 0, where people are
+            // finer near a retention of 1 and near a learning rate of 0, where people's values are
             const model::SingleRate rate{1 - std::pow(static_cast<double>(a) / kSteps, 2),
                                          std::pow(static_cast<double>(b) / kSteps, 2)};
             const ErrorLine line = line_of(errors, trials, model::compensation(rate, trials));

@@ -5,8 +5,8 @@
 //
 // with p(n) the share of the perturbation that acts, x(n) the share that is compensated for (by a
 // single-rate process, model/adaptation.h), k the error of a person who has learned nothing, and c
-// the error without a perturbation. c and k are chosen so that the best such process has the least
-// squares; then x(n) = p(n) - (y(n) - c) / k for each trial.
+// the error without a perturbation. c and k are chosen so that the best such process has the
+// smallest sum of squares; then x(n) = p(n) - (y(n) - c) / k for each trial.
 #pragma once
 
 #include <optional>

@@ -64,7 +64,7 @@ void EventFinder::add_task(const frame::Frame& frame) {
     if (task.marker != 0) say(frame, "marker", number_text(task.marker));
     add_texts(frame);
     add_sounds(frame);
-    if (task.placements.size() > placed_)  // a body held in place is placed in each tick
+    if (task.placements.size() > placed_)  // a body held in place is placed anew in each tick
         say(frame, "put back", fmt::format("{} bodies", task.placements.size()));
     placed_ = task.placements.size();
     if (task.outcome >= 0) say(frame, "outcome", listed(head_.outcomes, task.outcome));
@@ -95,14 +95,14 @@ void EventFinder::add_texts(const frame::Frame& frame) {
     }
 }
 
-/// Answers count when their state ends: until then, they may change.
+/// Answers are reported when their state ends: until then, they can change.
 void EventFinder::add_answers(const frame::Frame& frame) {
     const bool ended = frame.phase != phase_ || frame.task.outcome >= 0;
     const size_t first = head_.variables.size() + head_.levels.size();
     answers_.resize(head_.answers.size(), kUnmeasured);
     for (size_t i = 0; i < answers_.size() && first + i < frame.task.variables.size(); ++i) {
         const double answer = frame.task.variables[first + i].value;
-        if (std::isnan(answer)) answers_[i] = answer;  // it is asked for again
+        if (std::isnan(answer)) answers_[i] = answer;  // the question is asked again
         if (!ended || std::isnan(answer) || answer == answers_[i]) continue;
         answers_[i] = answer;
         const std::string& name = head_.answers[i];

@@ -12,10 +12,11 @@ namespace dihaptic::analysis {
 
 class EventFinder {
   public:
-    /// `object`: index of the body whose lift-off counts; -1 if none. `phases`: their names.
+    /// `object`: index of the body whose lift-off is reported; -1 if none. `phases`: their names.
     EventFinder(const recording::LogHead& head, int object, std::vector<std::string> phases);
 
-    /// From the next frame on, the lift-off of this body counts; it stands at first.
+    /// From the next frame on, reports the lift-off of this body, which at first stands on its
+    /// support.
     void follow(int object) noexcept {
         supported_ = true;
         object_ = object;
@@ -54,10 +55,10 @@ class EventFinder {
     std::vector<int32_t> lines_;   // lines below the message, in the last frame
     std::vector<double> answers_;  // at the end of the last state [SI]
     bool perturbed_ = false;
-    size_t placed_ = 0;  // number of bodies
+    size_t placed_ = 0;  // number of bodies placed in the last frame
     int phase_ = -1;
     uint32_t status_ = 0;
-    frame::Knobs told_;  // values in the last events
+    frame::Knobs told_;  // values last reported
     frame::Knobs last_;  // values in the last frame
     std::vector<rows::EventRow> events_;
 };

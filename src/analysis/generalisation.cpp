@@ -29,10 +29,10 @@ struct RunningMean {
 struct Direction {
     std::string condition;
     Vec3 along_W = Vec3::Zero();
-    Vec3 axis_W = Vec3::UnitZ();  // of the angles
+    Vec3 axis_W = Vec3::UnitZ();  // axis of the angles
     bool trained = false;
     RunningMean before;  // compensation in baseline trials and in probes before training [deg]
-    RunningMean probes;  // after it began
+    RunningMean probes;  // compensation in probes after training began [deg]
 };
 
 /// Directions that differ by less are the same, whatever their conditions' names [deg].
@@ -41,7 +41,7 @@ constexpr double kSameDirection = 1;
 struct Round {
     std::map<std::string, Direction> directions;  // by key_of()
     RunningMean baseline;                         // compensation [deg]
-    bool trained = false;                         // whether a trial was perturbed so far
+    bool trained = false;                         // whether a trial has been perturbed so far
 };
 
 /// Unit vector of the reach that a trial demands; `number`: number of the trial in the session,
@@ -57,7 +57,7 @@ Vec3 axis_of(const std::vector<task::ReachPlan>& reaches, int number) {
     return number < 1 || i >= reaches.size() ? Vec3::Constant(kUnmeasured) : reaches[i].axis_W;
 }
 
-/// A condition may have several directions, by a draw.
+/// A condition may have several directions, if it draws them.
 std::string key_of(const std::string& condition, const Vec3& along_W) {
     return fmt::format("{} {:.2f} {:.2f} {:.2f}", condition, along_W.x(), along_W.y(), along_W.z());
 }
@@ -104,8 +104,8 @@ double angle_from_trained(const Direction& direction, const Round& round) {
     return nearest * 180 / std::numbers::pi;
 }
 
-/// Mean compensation of the probes, less the baseline of the same direction or, if it has none, of
-/// all.
+/// Mean compensation of the probes, less the baseline of the same direction or, if it has none,
+/// that of all directions.
 double compensation_of(const Direction& direction, const Round& round) {
     const RunningMean& before = direction.before.count > 0 ? direction.before : round.baseline;
     return direction.probes.value() - (before.count > 0 ? before.value() : 0);

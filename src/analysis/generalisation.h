@@ -1,6 +1,6 @@
 // Generalisation: how far learning in one direction of reaching carries over to other directions,
-// measured in trials in which no error was visible (clamps and catch trials), in untrained
-// conditions.
+// measured in trials of untrained conditions in which no error was visible (clamps and catch
+// trials).
 #pragma once
 
 #include <string>
@@ -31,9 +31,8 @@ struct Generalisation {
           "trials that gave the baseline: those of the condition before training, those of all "
           "conditions, or none");
         v("share", f.share, "1",
-          "share of the compensation in trained directions, whatever their conditions' names; "
-          "empty "
-          "if none was probed");
+          "compensation as a share of that in trained directions, whatever their conditions' "
+          "names; empty if no trained direction was probed");
         v("trials", f.trials, "1", "trials in which no error was seen");
     }
 };

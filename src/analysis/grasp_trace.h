@@ -16,7 +16,7 @@ struct Range {
     size_t size() const { return last > first ? last - first : 0; }
 };
 
-/// One value per finger; up to three need no heap memory, because each tick has such lists.
+/// One value per finger; up to three values need no heap memory, because every tick has such lists.
 template <class T>
 using PerFinger = boost::container::small_vector<T, 3>;
 
@@ -36,9 +36,9 @@ class GraspTrace {
         double grip;      ///< [N]
         double load;      ///< [N]
         bool on_support;  ///< the object presses on a body other than a finger
-        int support;      ///< body that the object presses hardest; -1: none
+        int support;      ///< body on which the object presses hardest; -1: none
         Vec3 n_support;   ///< normal of that contact, into the object
-        Vec3 v_sliding;   ///< velocity of the object's point there, along the support [m/s]
+        Vec3 v_sliding;   ///< velocity of the object at its support, along it [m/s]
         bool awake;       ///< the object is awake
         Pose X_WB;        ///< pose of the object
         Vec3 v_WB;
@@ -91,7 +91,7 @@ class GraspTrace {
     double mean_grip(Range range) const;
     double mean_load(Range range) const;
     double peak_grip(Range range) const;
-    /// Largest force sent to any handle, and mean force of the busiest finger [N].
+    /// Largest force sent to any handle, and the largest of the fingers' mean forces [N].
     double peak_force(Range range) const;
     double mean_force(Range range) const;
     /// Largest torque on any handle, and the mean of these torques over the samples; NaN when no

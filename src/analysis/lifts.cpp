@@ -23,7 +23,7 @@ constexpr double kLeastRate =
     0.2;  // least threshold, because a window without noise has no SD [N/s]
 constexpr double kBounce =
     0.05;  // a bounce separates a digit from the object for less than this time [s]
-constexpr double kParting = 0.2;  // between two lifts the object stands untouched for this time [s]
+constexpr double kParting = 0.2;  // least time untouched on the support between two lifts [s]
 constexpr double kLoadShare =
     0.02;  // share of the load at lift-off below which a load counts as none
 
@@ -116,7 +116,7 @@ double threshold(const Signals& signals, const Signal& rate) {
     return std::max(kLeastRate, mean(quiet) + 4 * spread(quiet));
 }
 
-/// Sample of a digit's touch. `force` has all of the digit's samples, or only the first ones.
+/// Sample of a digit's touch. `force` contains all of the digit's samples, or only the first ones.
 /// Nullopt if the digit does not touch.
 std::optional<size_t> touch(const Signals& signals, std::span<const double> force,
                             const Signal& rate) {
@@ -130,7 +130,7 @@ std::optional<size_t> touch(const Signals& signals, std::span<const double> forc
     return i;
 }
 
-/// Sample in which a digit lets go after `replaced`; nullopt if it does not.
+/// Sample in which a digit releases the object after `replaced`; nullopt if it does not.
 std::optional<size_t> release(const Signals& signals, const Signal& force, const Signal& rate,
                               size_t replaced) {
     const double limit = threshold(signals, rate);
@@ -274,7 +274,7 @@ class ByForce {
 
   private:
     /// The sample before the object rises fast; or, if it left its support earlier because it was
-    /// lifted slowly, that sample.
+    /// lifted slowly, the sample of that moment.
     size_t lift_off() const {
         size_t lifted = high_.first;
         while (lifted > 0 && signals_.rise[lifted] > kRising) --lifted;
@@ -289,7 +289,7 @@ class ByForce {
     std::vector<Signal> rates_;
 };
 
-/// Finds events by contact: each is the sample of its occurrence.
+/// Finds events by contact, each at the sample in which it occurs.
 class ByContact {
   public:
     ByContact(const GraspTrace& trace, const Signals& signals, Range high)
@@ -466,8 +466,8 @@ double slid_down(const GraspTrace& trace, Range air) {
     return out.value_or(0);
 }
 
-/// Finds replacement and release; the mark names the missing one, or is "complete". `top`: the
-/// object's largest height.
+/// Finds replacement and release; the lift's mark states what went wrong, or is "complete". `top`:
+/// the object's largest height.
 void find_end(rows::LiftRow& lift, const GraspTrace& trace, const Events& events, double top) {
     lift.mark = "not put down";
     if (!events.replacement) return;

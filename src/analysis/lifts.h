@@ -14,11 +14,11 @@
 // release       of a digit: after the last sample in which it pressed, with bounces as for touch
 //
 // and otherwise by force, by the rules of the WAY-EEG-GAL data set, which need no contacts and are
-// late or early by tens of milliseconds, since they smooth over 62 ms and wait for thresholds:
+// late or early by tens of milliseconds, since they smooth over 62 ms and rely on thresholds:
 //
 // touch         from a quarter of the digit's largest force back to where the force's rate is no
 //               more than mean + 4 SD of the trial's first 100 ms; only the force before lift-off
-//               counts if the largest came from something later
+//               is used if the touch would otherwise come after it
 // load onset    from 0.2 N back to where the load's rate began to grow; none for lighter objects
 // lift-off      from half of the height back to where the object rose by 1 cm/s or less
 // replacement   from the last time at half of the height on to where it sinks by 2 cm/s or less
@@ -26,7 +26,7 @@
 //
 // hold          from 600 to 200 ms before the object is lowered, by either rule
 //
-// In a pause no forces act, and hands close: a lift with a pause is marked, and has no figures.
+// In a pause no forces act, and the hands close: a lift with a pause is marked, and has no figures.
 //
 // A lift is dropped if the object stands again without having been carried there: in between no
 // digit touched it, or it slid along those that held it throughout by more than half of its height.
@@ -45,9 +45,9 @@
 
 namespace dihaptic::analysis {
 
-/// Parts of a trace with a lift each: each but the last ends when the object, after it was lifted,
-/// has stood untouched for a while; the next begins there, or after a pause in which nothing is
-/// held. One part, if nothing was lifted.
+/// The parts of a trace, with one lift in each. Each part but the last ends when the object, after
+/// it was lifted, has stood untouched for a while; the next part begins there, or after a pause in
+/// which nothing is held. There is one part if nothing was lifted.
 std::vector<Range> lifts_in(const GraspTrace& trace, const Vec3& gravity);
 
 /// Finds the lift in the trace of one attempt, in which the object lies at first. `friction`:

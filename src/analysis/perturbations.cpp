@@ -64,7 +64,7 @@ std::string column_of_errors(const task::Task& task) {
 Unmeasured unmeasured_perturbations(const task::Task& task) {
     Unmeasured out;
     collect(task.perturbations, out);
-    // replaced by these in a round or condition
+    // and their replacements in rounds and conditions
     for (const auto* list : {&task.rounds, &task.conditions}) {
         for (const task::Condition& condition : *list) collect(condition.perturbations, out);
     }

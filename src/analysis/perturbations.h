@@ -30,11 +30,12 @@ std::string column_of_errors(const task::Task& task);
 Table perturbation_table(const task::Task& task);
 
 /// Description of a trial's perturbation, if its learning is not measured; otherwise "". Several
-/// are in the order of their names. `named`: as in trials.csv, where several are joined by " + ".
+/// descriptions are in the order of the perturbations' names. `named`: as in trials.csv, where
+/// several are joined by " + ".
 std::string unmeasured_in(const std::string& named, const Unmeasured& unmeasured);
 
-/// The kind of a trial. Earlier versions called both kinds of clamp error_clamp, which is read as
-/// visual_clamp; it was a force_channel if its perturbation is one.
+/// The kind of a trial. Earlier versions wrote error_clamp for both kinds of clamp. It is read as
+/// visual_clamp at first; such a trial is a force_channel if its perturbation is one.
 rows::TrialKind kind_of(const rows::AskedRow& asked, const Unmeasured& unmeasured);
 
 }  // namespace dihaptic::analysis

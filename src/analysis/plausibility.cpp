@@ -9,7 +9,7 @@ namespace dihaptic::analysis {
 namespace {
 
 constexpr double kArm = 0.7;     // reach of an arm [m]
-constexpr double kFastest = 10;  // of a body that a drive moves on purpose [m/s]
+constexpr double kFastest = 10;  // largest speed of a body that a drive moves on purpose [m/s]
 
 }  // namespace
 
@@ -55,11 +55,11 @@ std::vector<std::string> Plausibility::findings() const {
             "nothing about people",
             strayed_.way, strayed_.time));
     if (jumped_.way > kFastest * tick_)
-        out.push_back(fmt::format(
-            "'{}' jumped by {:.3g} mm in one tick at {:.3f} s, when a drive moved it: "
-            "displacements count from where it was when the state began, so let 'along' begin at 0 "
-            "then (with time_in_state, not time_in_trial)",
-            bodies_[jumper_], 1e3 * jumped_.way, jumped_.time));
+        out.push_back(
+            fmt::format("'{}' jumped by {:.3g} mm in one tick at {:.3f} s, when a drive moved it: "
+                        "displacements are measured from where it was when the state began, so let "
+                        "'along' begin at 0 then (use time_in_state, not time_in_trial)",
+                        bodies_[jumper_], 1e3 * jumped_.way, jumped_.time));
     return out;
 }
 

@@ -15,9 +15,9 @@ class Plausibility {
     /// `person_simulated`: whether a simulated person moves the hand. `tick` [s].
     Plausibility(bool person_simulated, std::vector<std::string> bodies, double tick);
 
-    /// The next frame of the session.
+    /// Takes the next frame of the session.
     void add(const frame::Frame& frame);
-    /// A sentence for each thing that is not plausible, with its figure and its time.
+    /// A sentence for each implausible movement, with its size and time.
     std::vector<std::string> findings() const;
 
   private:
@@ -29,13 +29,13 @@ class Plausibility {
     double tick_;
     std::vector<Vec3> began_;   // where the handles were in the first frame [m]
     std::vector<Vec3> before_;  // where the bodies were in the previous frame [m]
-    int64_t sequence_ = -1;     // of that frame
+    int64_t sequence_ = -1;     // sequence number of that frame
     struct Largest {
         double way = 0;   // [m]
         double time = 0;  // [s]
     };
-    Largest strayed_;  // from where a handle began
-    Largest jumped_;   // of a driven body within a tick
+    Largest strayed_;  // largest distance of a handle from where it began
+    Largest jumped_;   // largest movement of a driven body in a tick
     size_t jumper_ = 0;
 };
 

@@ -56,11 +56,10 @@ std::string readme(const PsychDs& data, const std::vector<std::string>& files) {
         out +=
             "THIS DATA SET IS A SIMULATION. No person took part in it: simulated people moved "
             "the hand.\n\n";
-    out +=
-        data.description +
-        "\n\nEach file in `data` is a table with a header. The JSON file next to it has the unit "
-        "and the meaning of each\nof its columns. The columns `id` and `group` name the "
-        "participant and the group in all tables.\n\n";
+    out += data.description +
+           "\n\nEach file in `data` is a table with a header. The JSON file next to it gives the "
+           "unit and the meaning of each\nof its columns. The columns `id` and `group` name the "
+           "participant and the group in all tables.\n\n";
     for (const std::string& file : files) out += fmt::format("- `data/{}`\n", file);
     return out +
            "\nComplete authors, licence and funding in "

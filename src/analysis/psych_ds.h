@@ -1,6 +1,6 @@
 // Writes tables as a data set in the format Psych-DS (psych-ds.github.io): CSV files under data/,
-// whose names say what they are, and a description of every column for programs, in the words of
-// schema.org.
+// whose names state what they contain, and a description of every column for programs, in the words
+// of schema.org.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@
 namespace dihaptic::analysis {
 
 struct PsychDs {
-    std::string study;  ///< label in file names; letters and digits of it count
+    std::string study;  ///< label in file names, without characters other than letters and digits
     std::string title;
     std::string description;
     std::vector<std::string> authors;
     std::string program;
     bool simulated = false;
-    std::vector<TextTable> tables;  ///< those without rows are left out
+    std::vector<TextTable> tables;  ///< tables without rows are left out
 };
 
 /// Makes the data set in a folder that does not exist yet. Returns the names of its data files.

@@ -31,7 +31,7 @@ void mend_settings(const recording::SessionFolder& folder, recording::SessionInf
         read_fields(settings, read_yaml(folder.file("settings.yaml")), unreadable);
         unreadable.throw_if_errors();
     } catch (const Error&) {
-        return;  // reported with the inputs' checksums
+        return;  // the fault is reported with the inputs' checksums
     }
     Table was;
     try {
@@ -59,7 +59,7 @@ void mend_settings(const recording::SessionFolder& folder, recording::SessionInf
     recording::unseal(info, "settings.csv");
 }
 
-/// Whether a YAML text has any control character, or an escape, which may stand for one: a large
+/// Whether a YAML text contains a control character, or an escape, which may stand for one: a large
 /// file is parsed only in this case.
 bool may_have_control_characters(const std::string& text) {
     return find_fault(text) || text.find('\\') != std::string::npos;
@@ -99,8 +99,8 @@ std::string keep_before(const std::string& file) {
     return std::filesystem::path(name).filename().string();
 }
 
-/// The content of session.yaml, or as much as can be known without it; the file is kept if it
-/// cannot be read.
+/// The content of session.yaml, or as much as can be known without it; a copy of a file that cannot
+/// be read is kept.
 recording::SessionInfo read_or_mend_info(const recording::SessionFolder& folder,
                                          const recording::Setup& setup, Diagnostics& diagnostics) {
     Diagnostics unreadable;
@@ -114,7 +114,7 @@ recording::SessionInfo read_or_mend_info(const recording::SessionFolder& folder,
 }
 
 /// Replaces the control characters and broken bytes that versions before 0.3 let into a session's
-/// files. Returns the repaired files in their previous state.
+/// files. Returns the repaired files, with their previous checksums.
 std::vector<recording::InputFile> mend_texts(const recording::SessionFolder& folder,
                                              Diagnostics& diagnostics) {
     std::vector<recording::InputFile> out;
@@ -127,12 +127,13 @@ std::vector<recording::InputFile> mend_texts(const recording::SessionFolder& fol
             out.push_back(folder.input(name));
             const std::string before = keep_before(file);
             write_file(*text, file);
-            diagnostics.warning({file, 0}, "",
-                                "had control characters, or bytes that are not UTF-8 text. They "
-                                "have been replaced by U+FFFD; " +
-                                    before + " is the old file",
-                                "If you know the original characters, insert them and recover the "
-                                "session again, which rebuilds its tables.");
+            diagnostics.warning(
+                {file, 0}, "",
+                "contained control characters, or bytes that are not UTF-8 text. They "
+                "have been replaced by U+FFFD; " +
+                    before + " is the old file",
+                "If you know the original characters, insert them and recover the "
+                "session again, which rebuilds its tables.");
         }
     }
     return out;

@@ -1,4 +1,4 @@
-// Reads what has been written of a running session's log, for the results of its trials: the
+// Reads what has been written of a running session's log, to find the results of its trials: the
 // figures that trials.csv will contain.
 #pragma once
 

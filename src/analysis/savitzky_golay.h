@@ -1,5 +1,5 @@
 // Derivatives of a sampled signal, from the cubic that best fits a window around each sample
-// (Savitzky and Golay 1964). Near the ends the window is the first or the last whole one.
+// (Savitzky and Golay 1964). Near the ends, the first or the last whole window is used.
 #pragma once
 
 #include <span>

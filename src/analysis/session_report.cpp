@@ -250,7 +250,7 @@ struct SessionReader::Pass {
         for_each_status(frame.status, [&](Status bit) { ++figures.ticks_with(bit); });
         note_convergence(frame);
         plausibility.add(frame);
-        // logs before version 0.3 have no balance
+        // logs from before version 0.3 contain no balance
         if (std::isnan(frame.energy_imbalance)) return;
         figures.energy_imbalance += frame.energy_imbalance;
         figures.momentum_imbalance = std::max(figures.momentum_imbalance, frame.momentum_imbalance);
@@ -288,7 +288,7 @@ struct SessionReader::Pass {
     double tick;
     Reading reading;
     ObjectFacts facts;
-    std::vector<int> objects;  // by trial; empty: always the scene's
+    std::vector<int> objects;  // objects by trial; empty: always the scene's
     std::map<int, ObjectFacts> facts_by_object;
     EventFinder events;
     GraspTrace trace;
@@ -427,7 +427,7 @@ void keep_longer_files(const recording::SessionFolder& folder, const SessionFigu
         }
     };
     const auto end = [](const auto& row) { return row.end; };
-    // with a task, trials.csv also has the times of the sessions that this one resumes
+    // with a task, trials.csv also contains the times of the sessions that this one resumes
     if (!has_trials(folder))
         check("trials.csv", last_time<rows::TrialHead>(folder.file("trials.csv"), end));
     check("phases.csv", last_time<rows::PhaseRow>(folder.file("phases.csv"), end));
@@ -500,15 +500,15 @@ std::string SessionFigures::describe_imbalance() const {
 namespace {
 
 /// Notes in the session, and thus in its report, how closely its contacts were solved, whether its
-/// objects moved inexplicably, and what else nobody can have intended.
+/// objects moved inexplicably, and any implausible movements.
 void note_quality(recording::SessionInfo& info, const SessionFigures& figures) {
     info.convergence = figures.convergence;
     if (figures.ticks_with(kUnbalanced) > 0) add_note(info, figures.describe_imbalance());
     for (const std::string& what : figures.implausible) add_note(info, what);
 }
 
-/// Writes all tables except session.nwb. `conclude`: then also the session's state, which marks the
-/// session as complete.
+/// Writes all tables except session.nwb. `conclude`: also writes the session's state, which marks
+/// the session as complete.
 SessionFigures write_tables(const recording::SessionFolder& folder, recording::SessionInfo info,
                             const Reading& reading, const recording::NwbContent& content,
                             const Table& events, bool conclude = true) {
@@ -596,7 +596,7 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     try {
         recording::write_nwb(folder, content, part(0.4, 1));
     } catch (const Error&) {
-        // the error's own message must not be lost behind that of a full disk
+        // the message of a full disk must not hide that of this error
         try {
             write_tables(folder, info, reading, content, events, false);
         } catch (const Error&) {

@@ -1,4 +1,4 @@
-// Makes the files that a lab reads from raw.log: trials.csv, phases.csv, episodes.csv, lifts.csv,
+// Makes, from raw.log, the files that a lab reads: trials.csv, phases.csv, episodes.csv, lifts.csv,
 // events.csv and session.nwb. A session that was killed is treated like one that ended.
 #pragma once
 
@@ -49,7 +49,7 @@ struct SessionFigures {
     int64_t& ticks_with(Status bit) { return status_ticks[place_of(bit)]; }
     /// The phase with this name; null if there is none.
     const rows::PhaseRow* phase(const std::string& name) const;
-    /// The figures behind kUnbalanced for the session.
+    /// The figures that led to kUnbalanced in the session.
     std::string describe_imbalance() const;
 
   private:
@@ -69,13 +69,14 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
 /// of its files.
 class SessionReader {
   public:
-    /// `folder` must have the frozen inputs, and `info` the phases, object and participant.
+    /// `folder` must contain the frozen inputs, and `info` the phases, object and participant.
     SessionReader(const recording::SessionFolder& folder, const recording::SessionInfo& info,
                   const recording::LogHead& head);
     SessionReader(SessionReader&&) noexcept;
     ~SessionReader();
     void add(const frame::Frame& frame);
-    /// The attempts at a task's trials so far, as trials.csv will have them; no row without a task.
+    /// The attempts at a task's trials so far, as trials.csv will list them; without a task, no
+    /// rows.
     Table trials() const;
     /// Number of attempts that have ended.
     size_t ended_trials() const;
@@ -89,12 +90,12 @@ class SessionReader {
     std::unique_ptr<Pass> pass_;
 };
 
-/// Like finish_session(), for a session without a log that was read while it ran: writes all tables
-/// and session.yaml, but no session.nwb.
+/// Like finish_session(), for a session that has no log and was read while it ran: writes all
+/// tables and session.yaml, but no session.nwb.
 SessionFigures finish_tables(const recording::SessionFolder& folder, recording::SessionInfo info,
                              SessionReader reader);
 
-/// Adds a note unless `info` already has it: a session may be recovered more than once.
+/// Adds a note unless `info` already contains it: a session may be recovered more than once.
 void add_note(recording::SessionInfo& info, const std::string& note);
 
 /// Every setting of the session with its origin, from settings.csv; no rows if that file is

@@ -55,7 +55,7 @@ double ThresholdTrack::weber_fraction(const model::Psychometric& function) const
 
 namespace {
 
-/// Whether one function describes the answers of both.
+/// Whether one function describes the answers of both tracks.
 bool belong_together(const ThresholdTrack& a, const ThresholdTrack& b) {
     const bool same_standard =
         a.standard == b.standard || (std::isnan(a.standard) && std::isnan(b.standard));
@@ -147,20 +147,21 @@ void list_psychophysics(const ThresholdTrack& track, const model::Psychometric& 
     row("threshold_probability", function.probability(function.threshold), "1",
         "probability of yes at the threshold, by the fitted function");
     row("weber_fraction", track.weber_fraction(function), "1",
-        "what is just noticed over the standard: with a guess rate of 0.25 or more the threshold's "
-        "distance from it, else half the distance of the quartiles");
+        "just noticeable difference over the standard; the difference is the threshold's distance "
+        "from the standard if the guess rate is 0.25 or more, otherwise half the distance between "
+        "the quartiles");
     row("reversals", kind_is_staircase ? count : kUnmeasured, "1",
-        "reversals of a staircase that count; empty for other procedures");
+        "number of a staircase's reversals, without the skipped ones; empty for other procedures");
     row("mean_of_reversals", reversals.empty() ? kUnmeasured : sum / count, "1",
-        "their mean level, in the unit of threshold_share");
+        "mean level of these reversals, in the unit of threshold_share");
 }
 
 ThresholdFit fit_threshold(const ThresholdTrack& track) {
     ThresholdFit out;
     const std::vector<LevelCount> counts = count(track.answers);
     if (track.answers.size() < kLeast) {
-        out.note = fmt::format("not possible: {} answers, and a fit takes {}", track.answers.size(),
-                               kLeast);
+        out.note = fmt::format("not possible: {} answers, but a fit requires {}",
+                               track.answers.size(), kLeast);
         return out;
     }
     try {
@@ -175,7 +176,7 @@ ThresholdFit fit_threshold(const ThresholdTrack& track) {
     out.outside = t < low || t > high;
     if (out.outside) {
         out.note =
-            fmt::format("outside of the levels shown, {:.3g} to {:.3g}: a guess, no measurement",
+            fmt::format("outside of the levels shown, {:.3g} to {:.3g}: a guess, not a measurement",
                         track.share(low), track.share(high));
     }
     return out;

@@ -19,17 +19,17 @@ struct ThresholdTrack {
     std::string perturbation;
     std::string number;   ///< name of the number that it chooses; empty: the perturbation's share
     double standard = 0;  ///< standard value of the number; NaN: none
-    int skipped_reversals = 0;      ///< initial ones, which do not count in their mean
+    int skipped_reversals = 0;      ///< initial reversals, which are left out of their mean
     bool logarithmic = false;       ///< levels are log10 of shares, or of the number
     std::vector<Answer> answers;    ///< in order
     std::vector<int> trials;        ///< trial number of each answer in the session
     PsychometricFitSettings model;  ///< model that is fitted
 
-    /// The share, or the number in the unit of its name, at a level.
+    /// The share at a level, or the number, in the unit that its name states.
     double share(double level) const;
-    std::string what() const;  ///< description of the number that it chooses
-    /// The levels of a staircase at which its direction changed, as shares or numbers; none for
-    /// other procedures.
+    std::string what() const;  ///< description of the number that the procedure chooses
+    /// The levels of a staircase at which its direction changed, without the skipped ones, as
+    /// shares or numbers; none for other procedures.
     std::vector<double> reversals() const;
     /// The Weber fraction of a fitted function: the just noticeable difference over the standard;
     /// NaN without a standard. With a guess rate of 0.25 or more that is the threshold's distance

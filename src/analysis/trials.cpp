@@ -41,8 +41,8 @@ void append(std::vector<T>& list, const More& more) {
     list.insert(list.end(), more.begin(), more.end());
 }
 
-/// A number only if the text is exactly how we would write that number; blocks may be called 007 or
-/// nan, and stay text.
+/// A number only if the text is exactly how we would write that number; a block called 007 or nan
+/// stays text.
 Table::Cell cell(const std::string& text) {
     const auto value = any_number(text);
     return value && to_csv(Table::Cell(*value)) == text ? Table::Cell(*value) : Table::Cell(text);
@@ -199,7 +199,7 @@ void TrialFinder::measure_extent(Row& row, const Reach& reach, const frame::Fram
 Table TrialFinder::table(const recording::SessionInfo& info) const {
     Table table;
     add_columns<rows::TrialHead>(table);
-    // the columns on how a trial is measured are not repeated
+    // the columns about how a trial is measured are not repeated
     const size_t listed =
         std::min(column(list_, task::kFirstReachColumn), column(list_, task::kFirstMovementColumn));
     for (size_t k = 0; k < listed; ++k)

@@ -57,7 +57,7 @@ class TrialFinder {
         double share = 0;                             ///< share of the perturbation
         std::vector<frame::VariableFrame> variables;  ///< values at its start [SI]
         std::vector<frame::VariableFrame> last;       ///< values in its last tick
-        /// Values at the next trial's start, which differ if a program decides between trials.
+        /// Values at the next trial's start, which differ if a program sets them after the trial.
         std::vector<frame::VariableFrame> decided;
         rows::TrialMeasures measures;
         FirstStroke stroke;
@@ -73,7 +73,7 @@ class TrialFinder {
     void measure_extent(Row& row, const Reach& reach, const frame::Frame& frame) const;
 
     std::string file_;                            // trial-list.csv
-    std::vector<std::vector<std::string>> list_;  // its lines, with its header
+    std::vector<std::vector<std::string>> list_;  // lines of trial-list.csv, with the header
     std::vector<Reach> reaches_;                  // by trial; empty if none is measured
     std::vector<Row> rows_;
 };
@@ -89,7 +89,7 @@ Table with_earlier(const Table& own, const recording::SessionFolder& folder);
 struct NumberColumn : Table::Column {
     bool known_before = true;  ///< whether its value is known before the trial
 };
-/// Those of a session, in the order of trials.csv.
+/// These columns of a session, in the order of trials.csv.
 std::vector<NumberColumn> columns_of_numbers(const recording::SessionInfo& info);
 
 /// Column of trials.csv in a task for two.

@@ -30,7 +30,7 @@ class Anderson {
         f_.resize(size);
         forget();
     }
-    /// Forgets the last points, when they are no longer useful.
+    /// Forgets the last points; to be called when they are no longer useful.
     void forget() noexcept {
         count_ = 0;
         next_ = 0;
@@ -55,7 +55,7 @@ class Anderson {
         }
         has_last_ = true;
 
-        // least squares f = sum gamma_k df_k, by modified Gram-Schmidt from the newest backwards
+        // least squares f = sum gamma_k df_k, by modified Gram-Schmidt from the newest column back
         std::array<std::array<double, kDepth>, kDepth> R{};
         std::array<double, kDepth> gamma{};
         std::array<size_t, kDepth> used{};

@@ -6,7 +6,7 @@
 namespace dihaptic::contact {
 namespace {
 
-/// Blocks reserved per node: a pile of a hundred bodies fills about ten.
+/// Blocks reserved per node: a pile of a hundred bodies fills about ten per node.
 constexpr size_t kBlocksPerNode = 24;
 constexpr size_t kWordBits = 64;
 
@@ -18,7 +18,7 @@ uint64_t bit_of(int node) noexcept {
     return uint64_t{1} << (static_cast<size_t>(node) % kWordBits);
 }
 
-/// Inverts A in place, by Gauss-Jordan elimination with pivoting, on columns because they are
+/// Inverts A in place by Gauss-Jordan elimination with pivoting. It works on columns, which are
 /// contiguous in memory.
 void invert(BlockLu::Block& A) noexcept {
     BlockLu::Block inverse = BlockLu::Block::Identity();
@@ -96,10 +96,10 @@ bool BlockLu::analyse(int nodes, std::span<const std::pair<int, int>> edges,
     return true;
 }
 
-/// The work for a node: its inversion, and its elimination from its later neighbours and from each
-/// pair of them.
+/// Counts the work for each node: its inversion, and its elimination from its later neighbours and
+/// from each pair of them.
 void BlockLu::count_products() noexcept {
-    constexpr int64_t kInverse = 8;  // in products of the same duration
+    constexpr int64_t kInverse = 8;  // in products that take the same time
     products_ = 0;
     for (size_t k = 0; k < order_.size(); ++k) {
         const auto others = static_cast<int64_t>(later(k).size());
@@ -144,8 +144,8 @@ int BlockLu::degree_of(int node) noexcept {
     return degree;
 }
 
-/// Among the remaining nodes that vary, or those that do not, the first with the fewest neighbours
-/// (minimum degree).
+/// Among the remaining nodes that vary (or, without `varies`, those that do not), the first with
+/// the fewest neighbours (minimum degree).
 int BlockLu::least_connected(int nodes, bool varies) const noexcept {
     int least = -1;
     for (int i = 0; i < nodes; ++i) {

@@ -5,7 +5,7 @@
 // If the same pattern is solved repeatedly and the blocks of some bodies never change, those bodies
 // are eliminated first, and only once, by keep(); each solve then starts with again().
 //
-// Memory is reserved once; everything else allocates nothing.
+// reserve() allocates all memory; nothing else allocates any.
 #pragma once
 
 #include <Eigen/Dense>
@@ -24,9 +24,8 @@ class BlockLu {
     void reserve(int nodes, int edges);
 
     /// Finds the order of elimination, and where fill-in arises, for a pattern of unordered pairs.
-    /// `varies` says for each node whether its blocks change between solves; if left out, all
-    /// do. Does nothing if the pattern is unchanged. False if it is larger than
-    /// reserved.
+    /// `varies` states for each node whether its blocks change between solves; if left out, all do.
+    /// Does nothing if the pattern is unchanged. False if it is larger than reserved.
     bool analyse(int nodes, std::span<const std::pair<int, int>> edges,
                  std::span<const char> varies = {}) noexcept;
 
@@ -85,7 +84,7 @@ class BlockLu {
     std::vector<char> eliminated_;
     std::vector<char> varies_;  // by node
     std::vector<int> order_;
-    size_t constant_ = 0;     // nodes of the order that do not vary: the first ones
+    size_t constant_ = 0;     // number of nodes that do not vary, first in the order
     int first_varying_ = 0;   // first block of the nodes that vary
     std::vector<int> later_;  // for each node of the order: its neighbours eliminated later
     std::vector<size_t> later_begin_;

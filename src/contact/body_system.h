@@ -55,7 +55,8 @@ class BodySystem {
     /// Solves (I + G W) d = -c; changes G and c.
     void newton_step(std::span<Linearised<D>> contacts, std::span<Vec> d) noexcept;
     /// Does projected Gauss-Seidel sweeps on a law, until a sweep changes no contact's velocity by
-    /// more than `enough` [m/s], or until their work is used up. Returns their number.
+    /// more than `enough` [m/s], or until the allowed work is used up. Returns the number of
+    /// sweeps.
     template <class Law>
     int sweep(const Law& law, std::span<Vec> r, int most, double enough = -1) noexcept {
         gather(r);

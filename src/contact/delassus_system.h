@@ -24,7 +24,8 @@ class DelassusSystem {
     Vec q(size_t j) const noexcept { return q_.segment<3>(3 * static_cast<Eigen::Index>(j)); }
     double unit(size_t j) const noexcept { return units_[j]; }
 
-    /// Work is counted as for bodies, since such problems are solved outside ticks.
+    /// Work is counted as for bodies; its exact amount does not matter, since such problems are
+    /// solved outside ticks.
     void count_in(Work& work) noexcept { work_ = &work; }
     Work& work() const noexcept { return *work_; }
     int64_t step_visits() const noexcept { return Visits::matrix * static_cast<int64_t>(size()); }

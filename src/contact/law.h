@@ -106,8 +106,8 @@ struct Joint {
         }
         return error;
     }
-    /// |r - clamp(r - (u + compliance r))|^2, of impulses and velocities `unit` and 1 / `unit`
-    /// times the scaled ones.
+    /// |r - clamp(r - (u + compliance r))|^2 for impulses that are `unit` times the scaled ones,
+    /// and velocities that are 1 / `unit` times the scaled ones.
     template <int D>
     static double residual(const JointScale& joint, const Eigen::Matrix<double, D, 1>& r,
                            const Eigen::Matrix<double, D, 1>& u, double unit = 1) noexcept {
@@ -121,7 +121,7 @@ struct Joint {
         }
         return sum;
     }
-    /// Row by row, each including the changes of the rows before.
+    /// Updates r row by row; each row takes the changes of the rows before it into account.
     template <int D>
     static void relax(const JointScale& joint, Eigen::Matrix<double, D, 1>& r,
                       const Eigen::Matrix<double, D, 1>& u) noexcept {
@@ -181,8 +181,8 @@ double linearise_disc(const Eigen::Matrix<double, D, 1>& r, const Eigen::Matrix<
     return phi.squaredNorm();
 }
 
-/// Linearises the normal part, with the tangential part zero; this is all for an open contact.
-/// Returns r_N - a_N u^_N.
+/// Linearises the normal part and sets the tangential part to zero; an open contact needs nothing
+/// more. Returns r_N - a_N u^_N.
 template <int D>
 double linearise_normal(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
                         const Eigen::Matrix<double, D, 1>& u, double rho,
@@ -287,7 +287,7 @@ struct FrictionOfLoad {
 };
 
 /// Coulomb's law for sweeps: one over all normal impulses, then one over all friction. In stacks
-/// this leaves two thirds of the error of sweeping both at once.
+/// this leaves two thirds of the error that remains if both are swept at once.
 struct NormalThenFriction {
     static constexpr int kVisits = 2;
     NormalOnly normal;
@@ -355,8 +355,8 @@ struct Polygonal {
         const Tangent u_t = u.template tail<T>();
         const double radius = scale.mu * g;
         const auto on = polygon[contact].project(r_t - scale.a_t * u_t, radius);
-        // P = radius * per_radius + F z, with F the projector on the facet (zero at a vertex):
-        // along the facet as for a disc with s = 1, without turning
+        // P = radius * per_radius + F z, with F the projector on the facet (zero at a vertex): F
+        // takes the place that I - z z' has for a disc with s = 1
         const Tangent phi = r_t - on.point;
         auto G_t = out.G.template bottomRightCorner<T, T>();
         auto c_t = out.c.template tail<T>();

@@ -74,9 +74,9 @@ struct ProblemJoint {
 };
 
 /// Bodies, contacts and joints of one step. Find impulses r so that for each contact, with u the
-/// velocity of b relative to a plus slip and, along the normal, bias and compliance r_N, at the end
-/// of the step: r_N >= 0, u_N >= 0, r_N u_N = 0, |r_T| <= mu r_N, and r_T opposite to u_T if it
-/// slides; and so that the rows of each joint hold.
+/// sum of the velocity of b relative to a at the end of the step, of slip and, along the normal, of
+/// bias and compliance r_N: r_N >= 0, u_N >= 0, r_N u_N = 0, |r_T| <= mu r_N, and r_T opposite to
+/// u_T if it slides; and so that the rows of each joint hold.
 struct ContactProblem {
     std::vector<ProblemBody> bodies;
     std::vector<ProblemContact> contacts;

@@ -15,17 +15,19 @@ namespace {
 
 constexpr int kMostStaggeredIterations = 200;
 constexpr size_t kFewPairs = 10;
-/// A problem with at most this many contacts that is not solved within its bound is allowed this
-/// many times as much work, unless the tick has already done more than a little: an object that a
-/// finger is about to touch needs this once in several hundred thousand solves, the parts of a
-/// stirred heap often.
+/// A problem with at most kFewContacts contacts that is not solved within its bound is allowed
+/// kMoreForFew times as much work, unless the tick has already done more than kLittleWork: an
+/// object that a finger is about to touch needs this once in several hundred thousand solves; the
+/// parts of a stirred heap need it often.
 constexpr size_t kFewContacts = 12;
 constexpr int kMoreForFew = 15;
 constexpr int64_t kLittleWork = 20'000;  // visits: about half a millisecond
-constexpr size_t kExactWhenBounded = 2;  // of the methods in hand_over() for bounded work
+constexpr size_t kExactWhenBounded = 2;  // exact methods among those of hand_over() for bounded
+                                         // work
 constexpr int kLastSweeps = 2000;
 constexpr int kConeSweeps = 200;  // to bring an answer back into the cone
-/// Bounds as a fallback: pairs of projections times contacts squared, and sweeps times contacts.
+/// Bounds of methods used as a fallback: on pairs of projections times contacts squared, and on
+/// sweeps times contacts.
 constexpr size_t kMostStaggeredWork = 20'000;
 constexpr size_t kMostSweepWork = 60'000;
 
@@ -75,7 +77,7 @@ class Solve {
     void answer(Solver solver, SolveSettings settings, SolveDetail* detail) {
         project();
         const bool sweeps = solver == Solver::sequential_impulse;
-        if (sweeps) settings.work = kUnbounded;  // it has its own bounds
+        if (sweeps) settings.work = kUnbounded;  // sweeps have bounds of their own
         const bool bounded = settings.work < kUnbounded;
         out_of_work_ = !sweeps && !system_.work().affords(visits(kFewestSteps * kVisitsPerStep));
         const bool exact =
@@ -93,8 +95,8 @@ class Solve {
         stats_.missed = !own && !(residual.judged() <= kTolerance);
     }
 
-    /// Tries the exact methods on a small problem, and then allows them more work for a second
-    /// attempt.
+    /// If there are few contacts, tries the exact methods, and then allows more work for the second
+    /// attempt that follows.
     void try_if_few(std::span<const Route> routes, SolveSettings& settings, SolveDetail* detail) {
         if (contacts_ > kFewContacts) return;
         hand_on(routes.first(kExactWhenBounded), true, settings, detail);
@@ -164,8 +166,8 @@ class Solve {
         return answer;
     }
 
-    /// Pairs are bounded by contacts squared if another solver was requested, and few if work is
-    /// bounded.
+    /// If another solver was requested, the number of pairs is limited in proportion to 1 /
+    /// contacts^2, and small if work is bounded.
     Outcome by_staggered_projections(bool asked, bool bounded) {
         const size_t affordable = kMostStaggeredWork / (contacts_ * contacts_);
         const size_t pairs = asked     ? kMostStaggeredIterations
@@ -257,7 +259,7 @@ class Solve {
     SolveStats& stats_;
     Outcome outcome_;
     bool first_ = true;         // whether no method has been tried yet
-    int counted_ = 0;           // share of the allowed work
+    int counted_ = 0;           // visits that count towards the allowed work
     bool out_of_work_ = false;  // whether the tick's work is used up
 };
 

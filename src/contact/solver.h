@@ -73,8 +73,8 @@ class ContactSolvers {
     ContactSolvers& operator=(ContactSolvers&&) noexcept;
 
     /// Reserves memory for problems of this many bodies, contacts and joints, with or without
-    /// torsion. Lemke's method, Stewart-Trinkle's last resort, is kept for problems up to about
-    /// `kLemkeContacts`, with the default eight directions.
+    /// torsion. Lemke's method, Stewart-Trinkle's last resort, is kept for problems of up to about
+    /// `kLemkeContacts` contacts, with the default eight directions.
     void reserve(int bodies, int contacts, bool torsion, int joints = 0);
     static constexpr int kLemkeContacts = 60;
 

@@ -2,8 +2,8 @@
 // so a replay repeats it to the bit.
 //
 // The unit is a visit: the work of a projected Gauss-Seidel sweep on one contact. Everything else
-// counts as the number of visits of the same duration (README.md has the table, and the time of
-// a visit).
+// is counted as the number of visits that take the same time (README.md has the table, and the time
+// of a visit).
 #pragma once
 
 #include <algorithm>
@@ -28,8 +28,8 @@ class Work {
   public:
     static constexpr int64_t kEndless = std::numeric_limits<int64_t>::max() / 4;
 
-    /// This fraction of the work is reserved for sweeps, which finish the answers of exact
-    /// methods.
+    /// The fraction 1 / kForSweeps of the work is reserved for sweeps, which finish the answers of
+    /// exact methods.
     explicit Work(int64_t most = kEndless) noexcept : most_(most) { share(1); }
 
     /// Allows the following solves one of `parts` equal parts of the remaining work.
@@ -38,9 +38,9 @@ class Work {
         exact_ = limit_ = spent_ + part - part / kForSweeps;
         end_ = spent_ + part;
     }
-    /// From here on, exact methods work.
+    /// From here on, work is done by exact methods.
     void begin_exact() noexcept { limit_ = exact_; }
-    /// From here on, sweeps work, with at least this many visits.
+    /// From here on, work is done by sweeps, which are allowed at least this many visits.
     void begin_sweeps(int64_t least) noexcept { limit_ = std::max(end_, spent_ + least); }
 
     void spend(int64_t visits) noexcept { spent_ += visits; }
@@ -52,7 +52,7 @@ class Work {
     }
 
   private:
-    static constexpr int64_t kForSweeps = 5;  // one part in this number
+    static constexpr int64_t kForSweeps = 5;  // one part in this many
 
     int64_t most_;
     int64_t spent_ = 0;

@@ -129,7 +129,7 @@ Vec3 Books::way(int a, int b, const Vec3& p_W) const noexcept {
 void Books::check_gap(const Exchange& exchange, const Meeting& meeting, const Vec3& n_W,
                       double gap) noexcept {
     constexpr double kLeast = 1e-4;      // [m]
-    constexpr double kShareOfWay = 0.1;  // surfaces are curved and turn
+    constexpr double kShareOfWay = 0.1;  // because surfaces are curved and turn
     const auto enters = [&](const Vec3& way) {
         const double inside = -std::max(gap, 0.0) - way.dot(n_W);
         return inside > kLeast && inside > kLeast + kShareOfWay * way.norm();
@@ -242,7 +242,7 @@ void Books::count_energy(Entry& one) noexcept {
     exchanged_ += std::abs(by_load) + std::abs(by_weight);
     balance_.work += by_load;
     if (one.late) balance_.work -= by_weight;
-    // the moment of an impact within the step is unknown
+    // the time of an impact within the step is unknown
     if (one.bounced)
         balance_.dissipated -= one.potential - potential_of(body, one.before, h_) + by_weight;
 }

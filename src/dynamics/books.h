@@ -50,7 +50,8 @@ class Books {
     void begin(double h) noexcept;
     bool is_open(size_t body) const noexcept { return entries_[body].open; }
     /// To be called before the step changes a body's velocities. The load, without the weight, acts
-    /// at its centre of mass. A body that is `late` woke up after loads had acted, so it gets none.
+    /// at its centre of mass. A body that is `late` woke up after loads had acted, so none acts on
+    /// it.
     void open(size_t body, const Body& what, const Motion& before, const Wrench& load_W,
               bool late) noexcept;
     /// To be called after the step. A bouncing body moved at velocities other than those with which
@@ -73,8 +74,8 @@ class Books {
         /// contact.
         int joint = -1;
     };
-    /// Velocity of b relative to a at a point: after the impulses, and the mean of before and
-    /// after.
+    /// Velocity of b relative to a at a point: after the impulses, and the mean of the velocities
+    /// before and after them.
     struct Meeting {
         Vec3 v_mean = Vec3::Zero();
         Vec3 w_mean = Vec3::Zero();
@@ -87,8 +88,8 @@ class Books {
     Meeting meet(int a, int b, const Vec3& p_W) const noexcept;
     /// Displacement in the step of b's point, initially at p_W, relative to a's.
     Vec3 way(int a, int b, const Vec3& p_W) const noexcept;
-    /// A contact of rigid surfaces that were `gap` apart along n_W, from a to b, at the start
-    /// of the step: notes if they penetrate each other nevertheless.
+    /// Checks a contact of rigid surfaces that were `gap` apart along n_W, from a to b, at the
+    /// start of the step, and notes if they penetrate each other nevertheless.
     void check_gap(const Exchange& exchange, const Meeting& meeting, const Vec3& n_W,
                    double gap) noexcept;
     void take(const Exchange& exchange, const Meeting& meeting) noexcept;

@@ -1,4 +1,4 @@
-// Parts of polyhedron.cpp and round.cpp: polygons clipped to contact patches.
+// Shared by polyhedron.cpp and round.cpp: polygons that are clipped to contact patches.
 #pragma once
 
 #include <array>

@@ -292,7 +292,7 @@ Polyhedron Polyhedron::box(const Vec3& size) {
 
 namespace {
 
-/// The face to which the contact belongs; -1 for both shapes: it belongs to two edges.
+/// The face to which the contact belongs; if both are -1, it belongs to two edges.
 struct Choice {
     int face_of_a = -1;
     int face_of_b = -1;

@@ -12,8 +12,8 @@ namespace {
 /// A cap is treated as a polygon with this many corners, the first of which is the lowest point of
 /// its rim.
 constexpr int kRim = 16;
-/// The whole rim of a cap counts if the axis is within about 25 degrees of the normal; otherwise
-/// only the rim's lowest point does.
+/// The whole rim of a cap is used if the axis is within about 25 degrees of the normal; otherwise
+/// only the rim's lowest point is.
 constexpr double kCap = 0.9;
 /// Lines closer to parallel than this touch along their length.
 constexpr double kParallel = 0.02;
@@ -64,14 +64,15 @@ std::pair<Vec3, Vec3> closest(const Vec3& p, const Vec3& d, const Vec3& q, const
     return {p + s * d, q + t * e};
 }
 
-/// The core of a cylinder or a cone: the shape shrunk by this distance. Between touching shapes the
-/// direction of closest points is undefined; between a core and a shape it is not.
+/// The core of a cylinder or a cone: the shape shrunk by a given distance. Between touching shapes
+/// the direction of closest points is undefined; between a core and a shape it is not.
 struct Core {
     double radius = 0;
     double low = 0, high = 0;  // along the axis
     bool has_tip = false;
 
-    /// The core of a shape whose round surface exists or has the given radius.
+    /// The core of a shape: the axis of a capsule or sphere; otherwise the shape shrunk by
+    /// `rounding`.
     static Core of(const Round& shape, double rounding) {
         if (!shape.has_rim()) return {0, -shape.half, shape.half};
         const double half = shape.half - rounding;
@@ -170,10 +171,10 @@ void feature(const Placed& at, const Vec3& d, bool whole, Polygon& out) {
 }
 
 /// Sets, for the nearest point of a patch, the point of its rim that will touch in the middle of a
-/// step in which it turns by turn_W. The patch's normal points to it.
+/// step in which the shape turns by turn_W. The patch's normal points to the shape.
 void look_ahead(const Placed& at, const Vec3& turn_W, ContactPatch& patch) {
     constexpr double kRolls = 0.9;  // cosine of the largest angle of the rim's point
-    constexpr double kLies = 1e-5;  // [m]: on its side, by a line that rolls along
+    constexpr double kLies = 1e-5;  // [m]: it lies on its side, touching along a line
     if (!at.shape.has_rim() || patch.count == 0) return;
     if (patch.count == 2 && std::abs(patch.points[0].gap - patch.points[1].gap) < kLies) return;
     const Quat half_way = rotation_by(turn_W / 2);
@@ -334,7 +335,7 @@ struct SideNormals {
 };
 
 /// Tries the normals of the side of a shape, times `sign`. The distance as a function of the axis
-/// has a ridge there, which climb() does not follow to its top.
+/// has a ridge along these normals, which climb() does not follow to its top.
 template <class Separation>
 void walk_around(const Placed& of, double sign, const Separation& along, double margin,
                  Best& best) {
@@ -366,7 +367,7 @@ double apart_along(const Placed& a, const Placed& b, const Vec3& u) {
     return u.dot(b.centre - a.centre) - a.extent(u) - b.extent(-u);
 }
 
-/// Two round shapes along a direction, either way.
+/// Tries a direction, either way, as the axis between two round shapes.
 void try_axis(const Placed& a, const Placed& b, Vec3 u, Best::Kind kind, Best& best) {
     const double size = u.norm();
     if (!(size > kTogether)) return;
@@ -494,7 +495,7 @@ void try_edges(const Corners& a, const Placed& b, double margin, Best& best) {
     const auto along = [&](const Vec3& u) {
         return u.dot(b.centre) - b.extent(-u) - a.furthest(u);
     };
-    // for an edge within the core, climb from the best axis so far
+    // if the edge passes through the core, climb from the best axis so far
     const Vec3 u = least > kTogether ? Vec3((on_b - on_a) / least) : best.axis;
     best.take(along(u), u, Best::line);
     if (core.radius > 0) climb(along, margin, best);
@@ -555,7 +556,7 @@ Best best_face(const Corners& a, const Placed& b, double margin, const Vec3& way
     }
     if (!b.shape.has_rim()) return best;
     for (const double sign : {1.0, -1.0}) {
-        if (b.shape.is_cone() && sign < 0) break;  // the tip is there
+        if (b.shape.is_cone() && sign < 0) break;  // a cone has its tip at this end
         const Vec3 u = sign * b.axis;
         best.take(u.dot(b.centre) - b.shape.half - a.furthest(u), u, Best::cap_of_b);
     }

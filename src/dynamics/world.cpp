@@ -48,7 +48,7 @@ void World::Impl::add(const std::string& name, const scene::Shape& shape, double
 
 namespace {
 
-/// Two bodies do not touch each other.
+/// Lets two bodies pass through each other.
 void let_pass(btRigidBody& a, btRigidBody& b) {
     a.setIgnoreCollisionCheck(&b, true);
     b.setIgnoreCollisionCheck(&a, true);

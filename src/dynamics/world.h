@@ -104,7 +104,7 @@ class World {
     /// Adds a finger's proxy at a position. Gravity does not act on it. If it turns, it turns about
     /// P, with the same inertia about all axes: its mean about P.
     BodyIndex add_proxy(const scene::Finger& finger, const Vec3& p_WP, bool turns = false);
-    /// Adds a proxy that set_point() may make a point.
+    /// Adds a proxy that set_point() can turn into a point.
     BodyIndex add_changeable_proxy(const scene::Finger& finger, const Vec3& p_WP,
                                    bool turns = false);
     /// Adds a finger whose proxy is a point. It has only the contacts that meet() adds.
@@ -213,9 +213,9 @@ class World {
                                               std::span<const contact::Impulse> start)>;
     void watch_problems(ProblemWatcher watcher);
 
-    /// Limits of the counted work of a step with fingers (contact/work.h): for all
-    /// solves, about 12 ms, and for the search for bodies that enter each other, about 3 ms. The
-    /// minimum work of each solve is added to this.
+    /// Limits of the counted work of a step with fingers (contact/work.h): for all solves, about 12
+    /// ms, and for the search for bodies that enter each other, about 3 ms. The minimum work of
+    /// each solve comes on top of these limits.
     static constexpr int64_t kMostSolveWork = 400'000;
     static constexpr int64_t kMostSearchWork = 100'000;
 

@@ -76,7 +76,7 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
         exchange.stored_after = stored(contact.gap + h / 2 * n_W.dot(meeting.v_after));
         pressing = mean_work + exchange.stored_after - exchange.stored_before;
     } else if (law.restitution > 0) {
-        // the moment of contact within the step is unknown, and so is the loads' work until then
+        // the time of the contact within the step is unknown, and so is the loads' work until then
         pressing = mean_work - std::abs(loads_at(contact, point) * h);
     }
     if (law.stiffness == 0 && law.compliance == 0)

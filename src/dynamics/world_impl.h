@@ -21,7 +21,8 @@
 
 namespace dihaptic::dynamics {
 
-/// An item that belongs to an island: bodies that touch, directly or through others that can move.
+/// An item that belongs to an island, which is a group of bodies that touch, directly or through
+/// others that can move.
 template <class T>
 struct OfIsland {
     size_t island;  // order of islands: those with a finger first, then by lowest body
@@ -74,10 +75,11 @@ struct World::Impl {
         bool bounces = false;         // whether it bounces in this step
         btVector3 v_leaves{0, 0, 0};  // if so: velocities after the step
         btVector3 w_leaves{0, 0, 0};
-        /// Whether it follows its drive in this step, in spite of contacts.
+        /// Whether the body follows its drive in this step, in spite of contacts.
         bool is_led() const { return is_driven || drive_to; }
-        /// Whether its angular velocity can change at constant angular momentum. A proxy cannot,
-        /// because it has the same inertia about all axes; nor can a body restricted to one axis.
+        /// Whether the body's angular velocity can change at constant angular momentum. A proxy
+        /// cannot, because it has the same inertia about all axes; nor can a body restricted to one
+        /// axis.
         bool turns_freely() const { return !is_proxy && turns == Vec3::Ones() && !is_led(); }
     };
 
@@ -100,7 +102,7 @@ struct World::Impl {
     std::unique_ptr<Collision> collision;
     PointContacts point_contacts;
     Joints joints;
-    size_t recorded_joints = 0;  // the first ones
+    size_t recorded_joints = 0;  // number of joints that are recorded, which come first
     std::vector<OfIsland<size_t>> joints_of_islands;
     std::vector<size_t> island_joints;
     std::vector<contact::Vec6> island_change;  // of velocities, by the problem's bodies
@@ -111,7 +113,7 @@ struct World::Impl {
     contact::ContactSolvers solvers;
     ProblemWatcher watcher;
     bool diverged = false;
-    bool held_back = false;  // whether any body was, in the last step
+    bool held_back = false;  // whether any body was held back in the last step
     bool has_fingers = false;
     double held_residual = 0;  // largest over islands with a finger
     contact::Work work;        // work of the step's solves
@@ -153,7 +155,7 @@ struct World::Impl {
     /// Whether a body's position and velocity are numbers, and within kBeyond.
     bool is_sound(size_t i) const;
     bool all_sound() const;
-    /// Inverse mass at its present orientation, without the motions that joints to the world
+    /// Inverse mass at the item's present orientation, without the motions that joints to the world
     /// prevent.
     contact::Mat6 inverse_mass_of(const Item& item) const;
     void note_stepped();
@@ -175,7 +177,7 @@ struct World::Impl {
     /// Gives the points of a manifold their Carried records.
     void give_to(const btPersistentManifold& manifold);
     void find_islands();
-    /// Joins bodies that touch or are joined to groups.
+    /// Forms groups of bodies that touch or that joints connect.
     void join_groups();
     /// Number of islands with a touching finger.
     int64_t held_islands() const;
@@ -183,9 +185,9 @@ struct World::Impl {
     contact::SolveStats solve(double h);
     contact::SolveStats solve_with_entered(double h, const Vec3& gravity,
                                            std::vector<BodyState>& states);
-    /// Widens the bounds of bodies whose velocities contacts changed much.
+    /// Widens the bounds of bodies whose velocities were changed much by contacts.
     void widen_bounds(double h);
-    /// Makes bodies that would still enter others wait in front of those.
+    /// Makes bodies that would still enter others wait in front of them.
     void hold_back(double h, contact::Work& search);
     /// If one body of a joint waits, makes the other wait too, since the joint would tear
     /// otherwise. False if nothing changed.
@@ -239,12 +241,12 @@ struct World::Impl {
     bool publish_contacts(double h, std::vector<contact::Contact>& out);
     void take(const contact::Contact& contact, const btManifoldPoint& point, double h);
     void take_joints(double h);
-    /// Change, by the step's loads, of the speed at which a contact's bodies separate, times its
-    /// force [W].
+    /// Change, by the step's loads, of the speed at which a contact's bodies separate, times the
+    /// contact's force [W].
     double loads_at(const contact::Contact& contact, const btManifoldPoint& point) const;
 };
 
-/// User indices of both.
+/// User indices of a manifold's two bodies.
 inline std::pair<size_t, size_t> bodies_of(const btPersistentManifold& manifold) {
     return {static_cast<size_t>(manifold.getBody0()->getUserIndex()),
             static_cast<size_t>(manifold.getBody1()->getUserIndex())};

@@ -138,7 +138,8 @@ void World::Impl::let_bounce(const contact::SolveSettings& how, double h,
     problem.store(island_contacts);
     for (size_t i = 0; i < island_bodies.size(); ++i) {
         const contact::Vec6 bounced = solvers.velocity_change(static_cast<int>(i));
-        // to the last digit, first + (bounced - first) would not be bounced
+        // because of rounding, first + (bounced - first) would differ from bounced in the last
+        // digit
         island_change[i] =
             share == 1 ? bounced
                        : contact::Vec6(island_change[i] + share * (bounced - island_change[i]));
@@ -225,7 +226,7 @@ double World::Impl::share_of_bounce() const {
     }
     const double room = std::max(most - first, 1e-9 * first);
     if (2 * product + added <= room) return 1;
-    // added s^2 + 2 product s = room
+    // solves added s^2 + 2 product s = room
     return (std::sqrt(product * product + added * room) - product) / added;
 }
 
@@ -254,7 +255,7 @@ contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& ho
         iterations = stats.iterations += iterations;
         work_before = stats.work += work_before;
         const bool is_last = guess > kMostGuesses || stats.route == contact::Route::out_of_work;
-        // its joints then have small errors
+        // the island's joints then have small errors
         stats.missed = stats.missed || (is_last && !island_joints.empty());
         if (is_last || stats.refused) return stats;
         island_change.clear();

@@ -18,8 +18,8 @@
 //                   iteratively. Bounces need a second solve, for velocities of separation, and
 //                   must add no energy.
 //   6 missed        Pairs that would still enter each other, because they turned or were
-//                   knocked, get contacts, and everything is solved again from the velocities
-//                   before it. A body that no contact can stop waits in front of its obstacle.
+//                   knocked, get contacts, and everything is solved again from the same initial
+//                   velocities. A body that no contact can stop waits in front of its obstacle.
 //   7 positions     x <- x + h v, R <- exp(h w) R: semi-implicit Euler, by the new velocities.
 //                   Then w <- I^-1 L for the new orientation, with the momentum L of the step.
 //   8 published     are the bodies' states, contacts with their forces, joints with theirs, the
@@ -181,7 +181,7 @@ void World::Impl::collect_awake(std::vector<BodyState>& states) {
 contact::Mat6 World::Impl::inverse_mass_of(const Item& item) const {
     contact::Mat6 out = contact::Mat6::Zero();
     if (item.is_led()) return out;
-    // its inertia may differ between the world's axes
+    // the body's inertia may differ between the world's axes
     out.diagonal().head<3>() = item.properties.mass.cwiseInverse() * item.body->getInvMass();
     out.bottomRightCorner<3, 3>() = from_bullet(item.body->getInvInertiaTensorWorld());
     for (int i = 0; i < 3; ++i) {

@@ -30,7 +30,7 @@ struct DeviceInfo {
     /// Factor by which readings exceed the hand's movement, and by which the forces listed here
     /// exceed those in the hand.
     double scale = 1;
-    double delay = 0;  ///< from write() to force [s]
+    double delay = 0;  ///< time from write() to force [s]
     /// Largest stiffness [N/m] and damping [N*s/m] that the device renders stably, if its
     /// manufacturer states them: settings given as fractions of a maximum refer to these.
     std::optional<double> max_stiffness;

@@ -122,7 +122,9 @@ struct JointFrame {
         v(j.f_B_W, {"force", "N", "W",
                     "Force on the second body at the joint, including spring, friction and "
                     "stops."});
-        v(j.t_B_W, {"torque", "N*m", "W", "Torque on the second body at the joint, likewise."});
+        v(j.t_B_W,
+          {"torque", "N*m", "W",
+           "Torque on the second body at the joint, including spring, friction and stops."});
     }
 };
 
@@ -207,24 +209,23 @@ struct Frame : Knobs {
                                 "Iterations of all solvers in the step, summed over its islands."});
         v(f.solver_fallback,
           {"solver_fallback", "1", "",
-           "1 if a solver other than the requested one answered for any island, otherwise 0."});
+           "1 if any island was solved by a solver other than the requested one, otherwise 0."});
         v(f.solver_route, {"solver_route", "1", "", "Method that found the impulses used."});
         v(f.solver_residual,
           {"solver_residual", "1", "",
            "Largest error in Coulomb's law, as defined in src/contact/README.md."});
-        v(f.solver_held_residual,
-          {"solver_held_residual", "1", "",
-           "The same for contacts of bodies that a finger touches, directly or through others."});
-        v(f.kinetic_energy,
-          {"kinetic_energy", "J", "",
-           "Kinetic energy of all freely moving bodies, half a step before their positions."});
+        v(f.solver_held_residual, {"solver_held_residual", "1", "",
+                                   "The same error, at contacts of bodies that a finger touches, "
+                                   "directly or through others."});
+        v(f.kinetic_energy, {"kinetic_energy", "J", "",
+                             "Kinetic energy of all freely moving bodies, half a step before the "
+                             "time of their positions."});
         v(f.potential_energy, {"potential_energy", "J", "",
-                               "Potential energy of their weights, zero at the world's origin, and "
-                               "of springs, at that time."});
+                               "Potential energy of these bodies' weights, zero at the world's "
+                               "origin, and of springs, at the time of kinetic_energy."});
         v(f.work, {"work", "J", "",
-                   "Work done on these bodies in the step by fingers, loads, motors and driven "
-                   "bodies, and the "
-                   "energy of changes by the experiment."});
+                   "Work done on freely moving bodies in the step by fingers, loads, motors and "
+                   "driven bodies, and the energy of changes that the experiment makes."});
         v(f.dissipation, {"dissipation", "J", "",
                           "Energy dissipated by friction, dampers and impacts in the step."});
         v(f.energy_imbalance, {"energy_imbalance", "J", "",

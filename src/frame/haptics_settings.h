@@ -22,7 +22,7 @@ constexpr auto enum_names(CouplingKind) {
     return std::array{"implicit", "dual_spring", "velocity_impulse"};
 }
 
-/// The coupling between a handle and its proxy; src/haptics/README.md has the equations.
+/// The coupling between a handle and its proxy; src/haptics/README.md gives the equations.
 struct CouplingSettings {
     CouplingKind kind = CouplingKind::implicit;
     double stiffness = 1000;        ///< k [N/m]
@@ -98,8 +98,8 @@ struct CouplingSettings {
     }
 
   private:
-    /// A value and its fraction are two forms of one setting. The later file overrides, and a file
-    /// may contain only one form.
+    /// A value and its fraction are two forms of one setting. The later file takes precedence, and
+    /// a file may contain only one form.
     template <class Reader>
     static void one_of_two(Reader& v, const std::string& name, Quantity quantity,
                            std::optional<double>& share) {
@@ -124,7 +124,7 @@ constexpr auto enum_names(PointFriction) {
 /// How fingers are represented in the world.
 struct ProxySettings {
     scene::ProxyKind kind =
-        scene::ProxyKind::rigid;  ///< for fingers whose kind the scene does not give
+        scene::ProxyKind::rigid;  ///< kind of fingers whose kind the scene does not give
     PointFriction friction = PointFriction::together;  ///< point
     double sliding_friction = 1;  ///< point: dynamic friction relative to static friction
     /// For a point: a body pressed harder than this yields and is not felt again until the
@@ -150,7 +150,7 @@ struct ProxySettings {
         v("changeable", changeable, says("Whether the kind can change during a session."));
     }
 
-    /// The kind of a finger's proxy, given its own kind, if it has one.
+    /// The kind of a finger's proxy, given the finger's own kind, if it has one.
     scene::ProxyKind of(const std::optional<scene::ProxyKind>& own) const {
         return own.value_or(kind);
     }
@@ -180,7 +180,7 @@ struct SafetySettings {
     /// Longest time from one tick to the next, during which a force is held; longer than any tick
     /// [s].
     double max_pause = 0.04;
-    /// Longest delay of a tick's start; unset: only `max_pause` counts [s].
+    /// Longest delay of a tick's start; unset: only `max_pause` applies [s].
     std::optional<double> max_late;
     /// Damping of handle and hand, which determines the stiffness allowed for a late loop;
     /// unset: the devices' values, or a loose hand's [N*s/m].
@@ -188,7 +188,7 @@ struct SafetySettings {
     /// Time constant with which the device's motors warm and cool: of the order of a small motor's
     /// winding [s].
     double heating_time = 10;
-    double workspace_stiffness = 500;  ///< of the wall at the limit of reach; 0: no wall [N/m]
+    double workspace_stiffness = 500;  ///< wall at the limit of reach; 0: no wall [N/m]
     double soft_start = 0.5;           ///< time over which force rises after being switched on [s]
     std::string dead_man_finger;  ///< finger whose device has the dead-man switch; empty: no switch
     int dead_man_button = 0;      ///< index of the switch among the device's buttons
@@ -229,8 +229,7 @@ struct SafetySettings {
         v("max_late", max_late,
           limit(Quantity::time, 1e-4, 1)
               .says("Lateness of a tick above which force is switched off; if left out, only "
-                    "max_pause "
-                    "counts."));
+                    "max_pause applies."));
         v("hand_damping", hand_damping,
           limit(Quantity::damping, 0.1, 100, Tighter::fixed)
               .says("Damping of handle and hand, which determines the stiffness allowed for a late "

@@ -18,10 +18,10 @@ struct Knob {
     const char* unit;
     const char* what;  ///< one sentence
     /// Its name in events.csv, the window's log and the panel, with & before its shortcut
-    /// letter; null: not shown there.
+    /// letter; null: it appears in none of these.
     const char* key = nullptr;
     const char* label = nullptr;
-    double least = 0, most = 0, step = 0;  ///< for a number in the panel
+    double least = 0, most = 0, step = 0;  ///< range and step of a number in the panel
     const char* unset = nullptr;           ///< the meaning of NaN
     bool eased = false;  ///< a user's change is gradual, so that held objects are not dropped
 
@@ -53,7 +53,7 @@ struct Knobs {
     /// that orders another kind must ensure that these fingers touch nothing.
     scene::ProxyKind proxy{};
     double friction_scale = 1;  ///< factor on every coefficient of friction
-    /// Angle of WorkspaceTurn in the tick [rad]. It follows from the rate; an order has no
+    /// Angle of WorkspaceTurn in the tick [rad]. It follows from the rate; ordering an angle has no
     /// effect.
     double workspace_turn = 0;
     double workspace_rate = 0;  ///< rate of workspace_turn until the next tick [rad/s]

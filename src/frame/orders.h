@@ -22,8 +22,8 @@ struct TickOrders {
     bool stop = false;       ///< whether this tick is the last
     bool force_off = false;  ///< from this tick on, permanently, at the operator's request
     bool rest = false;       ///< a pause: no force in this tick, which is the last until resume()
-    /// Set if the window that watches the session has not answered for too long: that time [s].
-    /// Force is then off from this tick on.
+    /// Time for which the window that watches the session has not answered, if it is too long;
+    /// otherwise 0 [s]. If it is set, force is off from this tick on.
     double abandoned = 0;
     TaskFrame task;
 

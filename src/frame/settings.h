@@ -1,5 +1,5 @@
-// All settings that scene, rig, experiment and command line can set. The later source overrides,
-// except for `safety`, which belongs to the rig and can only be tightened by the others
+// All settings that scene, rig, experiment and command line can set. The later source takes
+// precedence, except for `safety`, which belongs to the rig and can only be tightened by the others
 // (session/safety_limits.h).
 #pragma once
 

@@ -63,7 +63,7 @@ struct VisualMap {
         v(m.noise,
           {"noise", "m", "W",
            "Standard deviation of the noise on their displayed positions, along each axis."});
-        v(m.shift_W, {"shift", "m", "W", "Displacement of what is shown, after all else."});
+        v(m.shift_W, {"shift", "m", "W", "Displacement of the displayed objects, applied last."});
     }
 };
 
@@ -162,7 +162,7 @@ struct PlacementFrame {
         v(p.X_WB.p, {"position", "m", "W", "Position of the body's origin."});
         v(p.X_WB.R, {"orientation", "1", "W",
                      "Unit quaternion that turns the body's axes into the world's."});
-        v(p.v_WB, {"velocity", "m/s", "W", "Velocity given to the body's origin there."});
+        v(p.v_WB, {"velocity", "m/s", "W", "Velocity given to the body's origin at this pose."});
         v(p.w_WB, {"angular_velocity", "rad/s", "W", "Angular velocity given to the body."});
     }
 };
@@ -267,7 +267,7 @@ struct NumberFrame {
 
     template <class Self, class Visitor>
     static void visit(Self& n, Visitor& v) {
-        v(n.value, {"value", "1", "", "The number, in the unit of its name in the text."});
+        v(n.value, {"value", "1", "", "The number, in the unit that its name in the text states."});
     }
 };
 

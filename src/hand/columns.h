@@ -14,7 +14,7 @@ namespace dihaptic::hand {
 struct Columns {
     std::vector<std::string> keys;  ///< names for messages
     int time = -1;                  ///< -1: derived from the line count
-    double time_unit = 1;           ///< of a number in a cell, or of a line [s]
+    double time_unit = 1;           ///< of the time column, or the time between lines [s]
     int occluded = -1;
     struct Finger {
         std::string name;

@@ -16,7 +16,7 @@ namespace dihaptic::hand {
 struct Posture {
     Vec3 centre = Vec3::Zero();  ///< in world axes [m]
     double aperture = 0;         ///< twice each finger's distance from the centre [m]
-    double yaw = 0;              ///< about the vertical, first [rad]
+    double yaw = 0;              ///< about the vertical, applied first [rad]
     double roll = 0;             ///< about the hand's own y axis, away from the person [rad]
 };
 

@@ -99,7 +99,8 @@ void check_complete(const Columns& columns, const Place& place, Diagnostics& dia
     if (columns.time < 0)
         diagnostics.error(place, "time_ms", "this column is missing", kHeaderRemedy);
     if (columns.fingers.empty())
-        diagnostics.error(place, "thumb_x_mm", "there is no column of a finger", kHeaderRemedy);
+        diagnostics.error(place, "thumb_x_mm", "no column holds a finger's position",
+                          kHeaderRemedy);
     for (const Columns::Finger& finger : columns.fingers) {
         for (size_t axis = 0; axis < 3; ++axis) {
             if (finger.axis[axis] >= 0) continue;
@@ -226,7 +227,7 @@ void read_frames(const Columns& columns, GivenTable& table, RecordingAxes axes, 
                  Diagnostics& problems) {
     while (problems.problems().size() < kMostErrors) {
         const auto cells = table.next();
-        // another part of the file may follow, such as force plates
+        // another part of the file may follow, such as the data of force plates
         if (!cells || (columns.exported && table.after_gap() && !movement.frames.empty())) return;
         if (!check_count(columns, *cells, table, problems)) continue;
         Movement::Frame frame;
@@ -236,7 +237,8 @@ void read_frames(const Columns& columns, GivenTable& table, RecordingAxes axes, 
     }
 }
 
-/// Start of the movement in a text: an export of Nexus may have force plates before it.
+/// Start of the movement in a text: in an export of Nexus, the data of force plates may come before
+/// it.
 size_t begin_of(std::string_view text) {
     for (const std::string_view line : {"\nTrajectories\n", "\nTrajectories\r", "\nTrajectories,",
                                         "\nTrajectories;", "\nTrajectories\t"}) {
@@ -325,7 +327,7 @@ void choose_fingers(Movement& movement, const std::vector<std::string>& fingers,
         const auto found = std::find(movement.fingers.begin(), movement.fingers.end(), finger);
         if (found == movement.fingers.end()) {
             diagnostics.error(place, finger,
-                              fmt::format("the movement has no such finger, but {}",
+                              fmt::format("the movement has no such finger; it has {}",
                                           fmt::join(movement.fingers, ", ")),
                               "Give the columns the names of the scene's fingers.");
         } else {

@@ -90,9 +90,9 @@ class FingerRepair {
         }
     }
 
-    /// Many programs write 0, 0, 0 for a marker that was lost. But a finger may really be there,
-    /// for instance if positions are relative to the first position. The marker counts as lost if
-    /// the adjacent frames could not be reached from there.
+    /// Many programs write 0, 0, 0 for a marker that was lost. But a finger may really be at that
+    /// position, for instance if positions are relative to the first position. The marker counts as
+    /// lost if the adjacent frames could not be reached from it.
     void drop_zeros() {
         const auto is_zero = [&](size_t i) { return valid_[i] && at(i).isZero(0); };
         for (size_t i = next_valid_from(0); i < valid_.size(); i = next_valid(i)) {

@@ -14,8 +14,8 @@ ScriptDriver::ScriptDriver(const HandSpec& spec, const std::vector<std::string>&
     fingers_ = finger_places(spec, fingers);
     if (spec.tremor.low > spec.tremor.high) {
         throw Error(spec.place, "tremor",
-                    fmt::format("its band goes from {:g} Hz down to {:g} Hz", spec.tremor.low,
-                                spec.tremor.high),
+                    fmt::format("its lowest frequency, {:g} Hz, is above its highest, {:g} Hz",
+                                spec.tremor.low, spec.tremor.high),
                     "Give the lower frequency as low_Hz.");
     }
     Segment start;

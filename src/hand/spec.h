@@ -91,7 +91,7 @@ struct FingerPlace {
         v("side", side,
           Field::number()
               .within(-kFarthest, kFarthest)
-              .says("Direction from the hand's centre to the finger; zero: at the "
+              .says("Direction from the hand's centre to the finger; zero for a finger at the "
                     "centre."));
         v("offset", offset,
           Field::length()
@@ -102,7 +102,7 @@ struct FingerPlace {
               .within(-kFarthest, kFarthest)
               .says("Initial centre of another hand, to which the finger belongs."));
         v("aperture", aperture,
-          Field::length().within(0, kFarthest).says("Initial aperture of that hand."));
+          Field::length().within(0, kFarthest).says("Initial aperture of the other hand."));
     }
 };
 
@@ -133,9 +133,8 @@ struct ScriptStep {
         v("aperture", aperture,
           Field::length()
               .within(0, kFarthest)
-              .says(
-                  "Aperture at its end: twice each finger's distance from the centre; if left out, "
-                  "unchanged."));
+              .says("Aperture at the step's end: twice each finger's distance from the centre; if "
+                    "left out, unchanged."));
         v("move", move,
           Field::length().within(-kFarthest, kFarthest).says("Displacement of the centre."));
         v("steady", steady, says("Whether the step has constant speed, in place of minimum jerk."));
@@ -148,7 +147,7 @@ struct ScriptStep {
         v("end_velocity", end_velocity,
           Field::of(Quantity::speed)
               .within(-kFastest, kFastest)
-              .says("Velocity of the centre at the end, with which the next step starts."));
+              .says("Velocity of the centre at the step's end, with which the next step starts."));
         v("fingers", fingers, says("Fingers that take part; if left out, all."));
     }
 };

@@ -79,7 +79,7 @@ Cells line_of(const std::vector<Cells>& head, const char* label, size_t from_end
 
 /// Motive: settings in one line; then lines with each column's type, name, identifier and property;
 /// then Frame, Time (Seconds) and the axes. Besides markers there are rigid bodies, and the
-/// expected positions of their markers; a measured marker comes first.
+/// expected positions of their markers; if a measured marker has the same name, it is used.
 Columns read_motive(const Cells& settings, GivenTable& table) {
     const auto key = std::find(settings.begin(), settings.end(), "Length Units");
     const double unit = unit_of(key < settings.end() - 1 ? key[1] : "", table);
@@ -113,7 +113,7 @@ Columns read_nexus(GivenTable& table) {
     const Cells axes = next_line(table);
     const Cells units = next_line(table);
     if (axes[0] != "Frame")
-        throw unreadable(table, "the fourth line of its header does not start with Frame");
+        throw unreadable(table, "the fourth line of its header does not start with 'Frame'");
     for (size_t i = 2; i + 2 < axes.size(); ++i) {
         if (cell(names, i).empty() || axes[i] != "X") continue;
         add_once(columns, marker_of(names[i]), i, unit_of(cell(units, i), table), table);

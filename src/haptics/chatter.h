@@ -3,9 +3,9 @@
 //
 //     d = |f - 2 f_old + f_older| / 4
 //
-// is the amplitude of the alternating part; a step of f has it for two ticks, a slope never. The
-// force chatters when d has been above kChatter for more than the fraction kChattering of the last
-// kChatterTime (by a first-order low-pass filter).
+// is the amplitude of the alternating part; a step of f shows it for two ticks, a slope never does.
+// The force chatters when d has been above kChatter for more than the fraction kChattering of the
+// last kChatterTime (by a first-order low-pass filter).
 #pragma once
 
 #include <algorithm>

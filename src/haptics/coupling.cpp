@@ -84,8 +84,8 @@ void DualSpring::before_step(World& world, BodyIndex proxy, const frame::Handle&
     const dynamics::BodyState& state = world.state(proxy);
     double k = settings_.stiffness;
     if (!was_touching) {
-        // limited so that the proxy takes at least one or two steps to the handle; beyond that, the
-        // explicit spring diverges
+        // limited so that the proxy takes at least one or two steps to reach the handle; beyond
+        // that, the explicit spring diverges
         k = std::max(k,
                      std::min(settings_.free_stiffening * k, 0.5 * settings_.body_mass / (h * h)));
     }

@@ -67,8 +67,8 @@ class ImplicitCoupling : public BodyCoupling {
 };
 
 /// Before each step the proxy gets the velocity that leads to the handle within the step, by a
-/// bounded impulse: in free space the bound is the largest force that the hand may feel, in touch
-/// the force of spring and damper. Proposed in the report of 2012.
+/// bounded impulse: in free space, the bound is the largest force that the hand may feel; in
+/// contact, it is the force of spring and damper. Proposed in the report of 2012.
 class VelocityImpulse : public BodyCoupling {
   public:
     /// `mass`: the proxy's own [kg]; `max_force`: the largest that the hand may feel [N].

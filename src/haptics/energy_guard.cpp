@@ -6,13 +6,13 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// Work of a torque that is held while a body turns from A to B [J].
+/// Work of a torque that stays constant while a body turns from A to B [J].
 double work(const Vec3& torque_W, const Quat& R_WA, const Quat& R_WB) noexcept {
     if (torque_W == Vec3::Zero()) return 0;
     return torque_W.dot(rotation_vector(R_WB * R_WA.conjugate()));
 }
 
-/// Work of a force and a torque that are held while a body moves from A to B [J].
+/// Work of a force and a torque that stay constant while a body moves from A to B [J].
 double work(const Wrench& on_it_W, const Pose& X_WA, const Pose& X_WB) noexcept {
     return on_it_W.force.dot(X_WB.p - X_WA.p) + work(on_it_W.torque, X_WA.R, X_WB.R);
 }
@@ -27,8 +27,8 @@ Vec3 braking(const Vec3& velocity, double excess, double h, double strongest) no
 
 }  // namespace
 
-/// Ends a window at the first step of the world after kActiveWindow: there is no check before a
-/// step.
+/// Ends a window at the first step of the world after kActiveWindow, since energy is checked only
+/// in steps.
 void EnergyGuard::count_windows(bool stepped, double h) noexcept {
     window_ += h;
     if (!stepped || window_ < kActiveWindow) return;

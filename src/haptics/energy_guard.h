@@ -1,6 +1,6 @@
-// EnergyGuard watches whether a finger's coupling gives the hand energy that nobody put in, and can
-// damp it. It is a passivity observer and controller in the time domain (Hannaford and Ryu 2002)
-// that allows the spring to return its stored energy. README.md derives it.
+// EnergyGuard watches whether a finger's coupling gives the hand energy that neither hand nor world
+// put in, and can damp it. It is a passivity observer and controller in the time domain (Hannaford
+// and Ryu 2002) that allows the spring to return its stored energy. README.md derives it.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace dihaptic::haptics {
 
 /// Energy that a coupling may generate before it counts as active [J]: the energy of a handle of 75
-/// g at 0.5 m/s. Touching, letting go and encoder steps generate up to half of it.
+/// g at 0.5 m/s. Touching, releasing and encoder steps generate up to half of it.
 constexpr double kEnergyBudget = 0.01;
 /// Time constant of the decay of generated energy [s].
 constexpr double kEnergyWindow = 1;
@@ -43,7 +43,7 @@ class EnergyGuard {
     /// Energy that the coupling generated in the last windows if this exceeded the budget in at
     /// least kActiveWindows in a row, else 0 [J].
     double feeding() const { return windows_ >= kActiveWindows ? fed_ : 0; }
-    /// Forgets all earlier states, because the hand may move meanwhile.
+    /// Forgets all earlier states, because the hand may have moved in the meantime.
     void restart() noexcept { *this = EnergyGuard(mode_, budget_); }
 
     /// Energy generated within the window and not dissipated since [J].
@@ -58,7 +58,7 @@ class EnergyGuard {
     Pose X_WH_;          // at the last tick
     Pose X_WP_;          // at the last tick
     Wrench asked_;       // requested by the coupling since then
-    Wrench damper_;      // added to this
+    Wrench damper_;      // added to asked_
     double stored_ = 0;  // in the spring
     // energy generated [J], with the proxy's work done by the force at the end of the tick, and by
     // the force held

@@ -51,7 +51,7 @@ class Finger {
     /// Last call in every tick: the force that the coupling requests for the present handle
     /// [N]. `tick`: its duration [s].
     Vec3 force(World& world, const frame::Handle& handle, double tick) noexcept;
-    /// Torque to the last force() [N*m].
+    /// Torque that goes with the last force() [N*m].
     const Vec3& torque() const noexcept { return torque_; }
     /// Energy in the coupling's springs at the last force() [J].
     double stored() const noexcept { return stored_; }

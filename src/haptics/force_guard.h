@@ -3,8 +3,8 @@
 //
 //     energy guard -> workspace wall -> fraction of soft start and dead-man switch -> Limiter
 //
-// The energy guard acts in the world; the others act in axes fixed to the device: if
-// the workspace turns (servo/workspace_turn.h), in the world's axes before the turn.
+// The energy guard acts in the world; the others act in axes fixed to the device: if the workspace
+// turns (servo/workspace_turn.h), these are the world's axes before the turn.
 #pragma once
 
 #include "frame/device_info.h"
@@ -29,8 +29,9 @@ class ForceGuard {
                  double stored, bool stepped, uint32_t& status) noexcept;
     /// Force of the workspace wall on the handle [N].
     Vec3 push(const frame::Handle& handle, uint32_t& status) const noexcept;
-    /// The part of their sum that may be sent to the device. `allowed`: whether the dead-man switch
-    /// is held, otherwise zero at once; `share`: the fraction from SoftStart.
+    /// The part of `felt`, the sum of shape() and push(), that may be sent to the device.
+    /// `allowed`: whether the dead-man switch is held; if not, the result is zero at once. `share`:
+    /// the fraction from SoftStart.
     Wrench limit(const Wrench& felt, bool allowed, double share, uint32_t& status) noexcept;
     /// Notes that zero was sent instead of the result of limit(): force rises again from there.
     void drop() noexcept;

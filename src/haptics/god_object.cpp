@@ -13,8 +13,8 @@ constexpr double kTouching = 1e-6;
 constexpr double kMostSlip = 10;
 /// A path shorter than this is ignored [m].
 constexpr double kNoWay = 1e-10;
-/// Moves in a tick. A few are usual, a few dozen if a round body is pressed nearly to its centre;
-/// the rest of the path follows in the next tick.
+/// Maximum number of moves in a tick. A few are usual, a few dozen if a round body is pressed
+/// nearly to its centre; the rest of the path follows in the next tick.
 constexpr int kMostMoves = 64;
 
 }  // namespace
@@ -89,7 +89,7 @@ std::span<const Obstacle> GodObject::obstacles(const Vec3& p_W,
         if (surface.separation(p_S) <= kTouching) note(i, surface.shallowest(p_S));
     }
     const size_t on = met_count_;
-    // the other obstacles are found by going there and returning
+    // the other obstacles are found by moving the point to p_W and back
     const Vec3 p = p_;
     push_out(p, coming_);
     count_ = 0;
@@ -214,7 +214,8 @@ double GodObject::push_out(const Vec3& start,
                : *std::max_element(bounds, bounds + static_cast<std::ptrdiff_t>(walls.count));
 }
 
-/// Collects the surfaces within reach: no path leads further from the handle than its start.
+/// Collects the surfaces within reach, which are no further from the handle than the point is: no
+/// path takes the point further away.
 void GodObject::gather(const Vec3& p_WH) noexcept {
     near_.clear();
     const double radius = (p_WH - p_).norm() + kOnSurface;
@@ -325,7 +326,7 @@ GodObject::Event GodObject::first_event(const Vec3& way) const noexcept {
     }
     for (size_t i = 0; i < count_; ++i) {
         const PointContact& c = contacts_[i];
-        if (c.depth <= 0) continue;  // it does not guide the path
+        if (c.depth <= 0) continue;  // such a contact does not guide the path
         const auto crossing = parts_[c.surface].surface.cross(c.face, in_surface(c.surface, p_),
                                                               X_WS_[c.surface].R.conjugate() * way);
         if (crossing.face < 0 || crossing.share > out.share) continue;

@@ -66,11 +66,11 @@ class GodObject {
     /// Does one tick, with the bodies at `bodies` and the handle at p_WH.
     void follow(const Vec3& p_WH, std::span<const dynamics::BodyState> bodies) noexcept;
 
-    /// Makes a body unfelt until the point, which continues to the handle, has left it.
+    /// Makes a body imperceptible until the point, which continues to the handle, has left it.
     void pop_through(size_t body, const Vec3& p_WH) noexcept;
 
-    // The following functions are for points whose position is computed elsewhere, by friction and
-    // by yielding bodies.
+    // The following functions are for points whose position is computed elsewhere, from friction
+    // and from the yielding of bodies.
 
     /// The faces that the point may meet while it is pulled to `p_W` and bodies move
     /// for h [s]: the touched faces, and those met in a motion without friction; one per part.
@@ -136,7 +136,7 @@ class GodObject {
     std::vector<char> inside_;                   // by body
     std::vector<size_t> near_;                   // surfaces
     std::vector<dynamics::BodyState> coming_;    // scratch
-    std::array<Obstacle, kMostHalfSpaces> met_;  // since last cleared, one face per surface
+    std::array<Obstacle, kMostHalfSpaces> met_;  // met since last cleared, one per surface
     size_t met_count_ = 0;
     Vec3 p_ = Vec3::Zero();
     Vec3 held_ = Vec3::Zero();

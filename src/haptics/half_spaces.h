@@ -4,7 +4,7 @@
 //
 // by its optimality conditions x = v + sum l_i n_i, l_i >= 0, l_i (n_i . x - b_i) = 0 (Zilles and
 // Salisbury 1995). In space at most three constraints determine the solution, so all sets of up to
-// three are tried, the smallest first: exact, with bounded work.
+// three are tried, the smallest first, which is exact and takes bounded work.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ struct HalfSpaceSet {
 /// All such sets, the smallest first.
 constexpr auto kHalfSpaceSets = [] {
     std::array<HalfSpaceSet, 42> out{};
-    size_t at = 1;  // the first is empty
+    size_t at = 1;  // the first set is empty
     for (size_t i = 0; i < kMostHalfSpaces; ++i) out[at++] = {{i}, 1};
     for (size_t i = 0; i < kMostHalfSpaces; ++i)
         for (size_t j = i + 1; j < kMostHalfSpaces; ++j) out[at++] = {{i, j}, 2};
@@ -51,8 +51,8 @@ struct HalfSpaces {
         b[count++] = bound;
     }
 
-    /// x; sets the multipliers. If no point satisfies all constraints, the one that violates them
-    /// least.
+    /// Returns x and sets the multipliers. If no point satisfies all constraints, x is the one that
+    /// violates them least.
     Vec3 nearest(const Vec3& v) noexcept {
         const double slack = 1e-13 + 1e-12 * v.norm();
         double least_miss = std::numeric_limits<double>::infinity();

@@ -2,9 +2,9 @@
 // of force.
 //
 // A spring k and its damper k h / 2, held from one tick to the next a time T_i later while the
-// handle moves at v, give the handle energy that nobody put in, k v^2 T_i (T_i - h) / 2: the damper
-// compensates for the hold of a punctual tick, h, but not for lateness. A handle and a hand of
-// damping b absorb b v^2 T_i. On average the loop therefore generates no energy as long as
+// handle moves at v, give the handle energy that neither side put in, k v^2 T_i (T_i - h) / 2: the
+// damper compensates for the hold of a punctual tick, h, but not for lateness. A handle and a hand
+// of damping b absorb b v^2 T_i. On average the loop therefore generates no energy as long as
 //
 //     k <= 2 b / L,        L = sum T_i (T_i - h) / sum T_i,
 //
@@ -24,7 +24,7 @@ namespace dihaptic::haptics {
 constexpr double kLooseDamping = 1;
 /// Fraction of 2 b / L used: loops with a handle's mass become unstable slightly below the limit.
 constexpr double kHeldShare = 0.7;
-/// If a loop can hold only less than this, force is switched off [N/m].
+/// Force is switched off if a loop can hold only a stiffness below this [N/m].
 constexpr double kLeastHeld = 100;
 
 /// Stiffness that a loop with mean lateness L [s] can hold, with damping b of handle and hand

@@ -4,12 +4,12 @@
 //
 //     f = k (p_P - p_H) + c (v_S - v_H)      v_S: of the surfaces at P, weighted by pressure
 //
-// is resolved into the surfaces' forces: N_i along its normal, at least 0, and the rest T
+// is resolved into the surfaces' forces: N_i along the normal of each, at least 0, and the rest T
 // along the surfaces. While the point rests, T is at most sum mu_i N_i; while it slides, T is r
-// times that, toward the point's lag. Damping acts only on the approach to surfaces
-// and on sticking: it neither pulls nor makes a smooth surface viscous. A soft surface of stiffness
-// k_s gives the fraction k_s / (k + k_s) of N_i: the spring is in series with k, though the point
-// stays on the surface.
+// times that, toward the point's lag. Damping acts only on the approach to surfaces and on
+// sticking: it neither pulls nor makes a smooth surface viscous. A soft surface of stiffness k_s
+// gives the fraction k_s / (k + k_s) of N_i: the spring is in series with k, though the point stays
+// on the surface.
 #pragma once
 
 #include "haptics/coupling.h"
@@ -19,7 +19,7 @@ namespace dihaptic::haptics {
 
 class PointProxy {
   public:
-    /// `body` represents it in the world.
+    /// `body` represents the point in the world.
     PointProxy(const scene::Scene& scene, BodyIndex body, const frame::CouplingSettings& coupling,
                const frame::ProxySettings& settings);
 

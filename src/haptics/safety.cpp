@@ -16,8 +16,8 @@ bool is_sound(const frame::Handle& read) noexcept {
            std::abs(read.R_WH.squaredNorm() - 1) < kUnit;
 }
 
-/// Judges a reading of a handle that was at `last` a time `elapsed` ago [s]; 0: no earlier
-/// reading.
+/// Judges a reading of a handle, given its state `last` at the time `elapsed` before [s]; 0: no
+/// earlier reading.
 void judge_motion(const frame::Handle& read, const frame::Handle& last, double elapsed,
                   double max_speed, Fault& fault) noexcept {
     double speed = read.v_WH.norm();

@@ -26,8 +26,8 @@ struct Fault {
     explicit operator bool() const { return kind != FaultKind::none; }
 };
 
-/// Describes a fault in one sentence, with a remedy for its cause; the caller adds the
-/// session's continuation. `finger` held the device of type `model`.
+/// Describes a fault in one sentence, with a remedy for its cause; the caller adds how the session
+/// continues. `finger` held the device of type `model`.
 std::string describe(const Fault& fault, const std::string& finger, const std::string& model);
 
 /// Keeps the first fault; later ones are its consequences.

@@ -1,11 +1,11 @@
 // SoftStart raises force gently: after activation and a pause, and when a dead-man switch is
 // pressed again.
 //
-// Anything around a hand at that moment (an object, a wall, a field) would strike it.
-// The fraction of the force that is sent therefore rises from 0 to 1 in the time T, in the same way
-// on all devices. If no force is requested from any device, nothing can strike, and the rise ends
-// at once: objects touched later are felt with full force. If that were ramped as well, a hand
-// would sink into a wall, which would then throw it out.
+// Anything around a hand at that moment (an object, a wall, a field) would strike it. The fraction
+// of the force that is sent therefore rises from 0 to 1 in the time T, in the same way on all
+// devices. If no force is requested from any device, nothing can strike, and the rise ends at once:
+// objects touched later are felt with full force. If their force were ramped as well, a hand would
+// sink into a wall, which would then throw it out.
 #pragma once
 
 #include <algorithm>

@@ -65,7 +65,7 @@ void SolvedPoint::after_step(World& world, const frame::Handle& handle) noexcept
         if (c.b != body_ || c.normal_force <= 0) continue;
         const double share = share_of(world, c.a);
         presses_[press_count_++] = {c.n_W, c.friction, share};
-        // it yields from the surface, but still ends on it
+        // the point yields from the surface, but still ends on it
         v_WP_ += give(world.surface(c.a, body_), coupling_.stiffness, mass_) * step_ *
                  c.normal_force * c.n_W;
         given += c.normal_force;

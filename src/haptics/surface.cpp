@@ -13,7 +13,7 @@ using scene::ShapeKind;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Roots of |p + s d| = r for p outside and d toward the origin, in as many dimensions as the
-/// vectors have. The formula for the first avoids the difference of nearly equal numbers.
+/// vectors have. The formula for the first root avoids the difference of nearly equal numbers.
 struct Roots {
     double first = kInfinity;
     double last = -kInfinity;
@@ -51,7 +51,8 @@ Roots cone_roots(const Eigen::Vector2d& q, const Eigen::Vector2d& e, double l, d
     const double first = std::min(near, far);
     const double last = std::max(near, far);
     if (a < 0) return k < 0 ? Roots{last, kInfinity} : Roots{-kInfinity, first};
-    // between the roots; of the cone's image above its tip, these are where l - s k is negative
+    // between the roots, unless they belong to the cone's image above its tip, where l - s k is
+    // negative
     return l + b / a * k < 0 ? Roots{} : Roots{first, last};
 }
 

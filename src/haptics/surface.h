@@ -68,8 +68,8 @@ class Surface {
         Vec3 n;         // outward, unit
         double offset;  // n . x on the face [m]
     };
-    /// The side of a cylinder or a cone has c r + s z = radius_, with r the distance from the
-    /// axis, and c and s cosine and sine of the side's angle of inclination: 0 for a cylinder.
+    /// The side of a cylinder or a cone has c r + s z = radius_, with r the distance from the axis,
+    /// and c and s cosine and sine of the side's angle of inclination, which is 0 for a cylinder.
     struct Lean {
         double c = 1, s = 0;
     };

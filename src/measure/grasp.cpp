@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array kCalmList{100,  200,  300,  400,  500,  600,  800, 1000,
                                1500, 2000, 3000, 4000, 5000, 6000, 8000};
-constexpr double kLastSeconds = 3;  // judged end of the hold, when everything has settled [s]
+constexpr double kLastSeconds = 3;  // end of the hold that is judged, once all has settled [s]
 using model::kGravity;
 
 double degrees(double rad) {
@@ -63,7 +63,8 @@ double closed_form_grip(const BenchSetup& setup) {
     const Vec3 off = hand.fingers[1].offset - hand.fingers[0].offset;
     const Vec3 contacts = off + Vec3(kBlockSize, 0, 0);
     const Vec3 targets = off + Vec3(kBlockSize - 2 * setup.squeeze, 0, 0);
-    const double slant = kBlockSize / contacts.norm();  // cosine of axis to normal
+    const double slant =
+        kBlockSize / contacts.norm();  // cosine of the angle between axis and normal
     BenchSetup along = setup;
     along.squeeze = (contacts.norm() - targets.norm()) / 2;
     return slant * slant * press_force(along);
@@ -228,7 +229,7 @@ double measure_torsion_limit(const BenchSetup& base) {
     analysis::GraspTrace trace(1, setup.settings.tick());
     const double begin = bench.driver().phases()[kHold].start + 1;
     const double limit = torsion_limit(setup);
-    // from 0.5 to 1.2 times the limit
+    // rises from 0.5 to 1.2 times the limit
     const auto torque_at = [&](double now) { return limit * (0.5 + 0.1 * (now - begin)); };
     double let_go = 0;
     size_t start = 0;

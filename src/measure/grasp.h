@@ -37,8 +37,8 @@ struct HoldFigures {
         v("tilt_rms_deg", f.tilt_rms_deg, "deg", "turn of the grasp axis about its mean");
         v("turn_deg", f.turn_deg, "deg", "turn of the block about the grasp axis");
         v("hf_force_n", f.hf_force_n, "N", "handle force above 5 Hz, RMS");
-        v("weight_ratio", f.weight_ratio, "1", "vertical handle forces over the weight");
-        v("grip_ratio", f.grip_ratio, "1", "pinch force over its closed form");
+        v("weight_ratio", f.weight_ratio, "1", "ratio of vertical handle forces to the weight");
+        v("grip_ratio", f.grip_ratio, "1", "ratio of pinch force to its closed form");
     }
 };
 
@@ -68,8 +68,9 @@ struct KickFigures {
     static void visit(Self& f, Visitor& v) {
         v("k", f.k, "", "stiffness of the coupling [N/m]");
         v("speed", f.speed, "m/s", "speed of the hand");
-        v("kick_ratio", f.kick_ratio, "1", "peak force over that of a spring in continuous time");
-        v("touch_step_n", f.touch_step_n, "N", "force in the first tick beyond the spring's");
+        v("kick_ratio", f.kick_ratio, "1",
+          "ratio of peak force to that of a spring in continuous time");
+        v("touch_step_n", f.touch_step_n, "N", "force in the first tick in excess of the spring's");
         v("leave_pull_n", f.leave_pull_n, "N", "largest pull toward the wall when leaving it");
     }
 };
@@ -80,7 +81,7 @@ struct GraspFigures {
     contact::Solver solver{};
     scene::ProxyKind proxy{};
     frame::PointFriction point_friction{};
-    std::string damping;  ///< default damping, with its share of K
+    std::string damping;  ///< default damping, as a multiple of K
     double mass = 0;      ///< [kg]
     double friction = 0;
     double rate = 0;  ///< [Hz]
@@ -101,8 +102,8 @@ struct GraspFigures {
         v("coupling", f.coupling, "", "coupling of handle and proxy");
         v("solver", f.solver, "", "solver of contacts");
         v("proxy", f.proxy, "", "model of a finger");
-        v("point_friction", f.point_friction, "", "point at which friction is computed");
-        v("damping", f.damping, "", "damping of the coupling, by its stiffness");
+        v("point_friction", f.point_friction, "", "how a point's friction is computed");
+        v("damping", f.damping, "", "damping of the coupling, as a multiple of its stiffness");
         v("mass", f.mass, "g", "mass of the block");
         v("friction", f.friction, "1", "coefficient of friction");
         v("rate_hz", f.rate, "Hz", "ticks per second");
@@ -110,15 +111,15 @@ struct GraspFigures {
         v("slow_dynamics", f.slow_dynamics, "",
           "lifting and holding with the world stepped every 10 ticks");
         v("calm_k", f.calm_k, "", "highest K that holds the block calmly [N/m]");
-        v("calm_k_delay", f.calm_k_delay, "", "as before, with a tick of delay [N/m]");
-        v("calm_k_premium", f.calm_k_premium, "", "as before, on a Premium [N/m]");
+        v("calm_k_delay", f.calm_k_delay, "", "the same, with a tick of delay [N/m]");
+        v("calm_k_premium", f.calm_k_premium, "", "the same, on a Premium [N/m]");
         v("wall_k", f.wall_k, "", "highest K that is calm on a wall [N/m]");
-        v("wall_k_delay", f.wall_k_delay, "", "as before, with a tick of delay [N/m]");
-        v("wall_k_premium", f.wall_k_premium, "", "as before, on a Premium [N/m]");
+        v("wall_k_delay", f.wall_k_delay, "", "the same, with a tick of delay [N/m]");
+        v("wall_k_premium", f.wall_k_premium, "", "the same, on a Premium [N/m]");
         v("torque_turn_deg", f.torque_turn_deg, "deg", "turn by 0.02 N*m for 0.2 s");
         v("torque_turn_after_deg", f.torque_turn_after_deg, "deg", "turn 1 s later");
         v("torsion_limit_ratio", f.torsion_limit_ratio, "1",
-          "torque that turns the block, over its closed form");
+          "ratio of the torque that turns the block to its closed form");
         v("kick", f.kick, "", "touching and leaving a wall");
         v("drag_n", f.drag_n, "N", "peak force in free motion");
     }
@@ -130,7 +131,7 @@ HoldFigures measure_hold(const BenchSetup& setup);
 HoldFigures measure_hold(const BenchSetup& setup, const scene::Scene& scene);
 /// `grip_slack`: share of the grip that the device's friction may absorb.
 bool calm_grasp(const HoldFigures& hold, double grip_slack = 0);
-/// Whether one finger that is pressed 15 mm into a fixed wall is calm.
+/// Whether one finger that is pressed 15 mm into a fixed wall stays calm.
 bool calm_wall(const BenchSetup& setup);
 /// Measures touching a wall at a speed, and leaving it.
 KickFigures measure_kick(BenchSetup setup, double speed);
@@ -143,8 +144,8 @@ std::pair<double, double> measure_torque(const BenchSetup& setup);
 /// Moment about the grasp axis that soft contacts of radius r can bear when fingers hold the block
 /// at the closed form's grip: sum of mu r N sqrt(1 - (T / (mu N))^2), with T half the weight [N*m].
 double torsion_limit(const BenchSetup& setup);
-/// Torque about the grasp axis, rising slowly in the hold, at which the block lets go, over
-/// torsion_limit().
+/// Torque about the grasp axis, rising slowly in the hold, at which the block turns away, as a
+/// multiple of torsion_limit().
 double measure_torsion_limit(const BenchSetup& setup);
 /// Largest turn about the grasp axis in the hold under a torque of `share` times torsion_limit()
 /// [deg].

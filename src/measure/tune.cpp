@@ -18,12 +18,12 @@ namespace dihaptic::measure {
 namespace {
 
 using model::kGravity;
-constexpr double kHandSpread = 3;   // impedance of firm over usual, and usual over loose hand
+constexpr double kHandSpread = 3;   // ratio of impedances: firm to usual hand, usual to loose
 constexpr double kGripShare = 0.4;  // grip over the weaker device's peak force
 /// Grip including the weight, over the weaker device's continuous force: hot motors get less force,
 /// and a hold that shook for this reason could not be calm with any setting.
 constexpr double kGripForLong = 0.8;
-constexpr double kNotMargin = 1.5;  // stiffness of TuneResult::stiffer over the proposal's
+constexpr double kNotMargin = 1.5;  // ratio of TuneResult::stiffer to the proposal, in stiffness
 constexpr double kAsStiff =
     0.95;  // share of the greatest stiffness that is enough if it saves damping
 constexpr int kBisections = 3;  // bisections between two stiffnesses of the map
@@ -145,7 +145,7 @@ std::vector<Bracket> best_rows(const TuneSetup& setup, const TuneResult& result)
     return rows;
 }
 
-/// Reports the share of a part as a share of the whole, between `from` and `to`.
+/// Reports the progress of a part as progress of the whole, between `from` and `to`.
 std::function<void(double)> part_of(const Progress& progress, const char* what, double from,
                                     double to) {
     return [&progress, what, from, to](double share) {
@@ -173,8 +173,8 @@ void bisect(const TuneSetup& setup, std::vector<Bracket>& rows, const std::atomi
     }
 }
 
-/// The least damped row (damping rises over rows) of those about as stiff as the stiffest, since a
-/// damper is felt at every touch.
+/// The least damped row (damping rises from row to row) of those about as stiff as the stiffest,
+/// since a damper is felt at every touch.
 const Bracket& least_damped(const std::vector<Bracket>& rows) {
     const double stiffest =
         std::max_element(rows.begin(), rows.end(), [](const Bracket& a, const Bracket& b) {
@@ -226,7 +226,7 @@ TuneSetup tune_setup(const rig::Rig& rig, const std::vector<std::string>& finger
                         fmt::format("'{}' cannot be tuned: settings are tried on simulated "
                                     "devices, before a person holds the real ones",
                                     device.backend),
-                        "Write a rig with backend: simulated and the device's mass_g, "
+                        "Write a rig with 'backend: simulated' and the device's mass_g, "
                         "peak_force_N, position_step_mm, friction_N and delay_ticks.");
         }
         const auto options = simulated_options(device);

@@ -1,6 +1,6 @@
 // The command `dihaptic tune`: finds the stiffness, damping and smoothing that hold a block calmly
-// on a given device in a given hand, and the highest stiffness that does so under all burdens below
-// (docs/measures.md).
+// on a given device in a given hand, and the highest stiffness that does so under each of the
+// changes of setup listed below (docs/measures.md).
 #pragma once
 
 #include <array>
@@ -113,7 +113,7 @@ std::string to_table(const TuneResult& result, const TuneSetup& setup);
 /// The proposal as settings, in the format of Dihaptic's files.
 std::string settings_block(const TuneResult& result, const TuneSetup& setup);
 
-/// The map at the proposal's smoothing, as a picture (SVG): tune_map.cpp.
+/// The map at the proposal's smoothing, as a picture (SVG), drawn in tune_map.cpp.
 std::string tune_map(const TuneResult& result, const TuneSetup& setup, const std::string& title);
 
 }  // namespace dihaptic::measure

@@ -20,7 +20,7 @@ constexpr double series_spring_stretch(double force, double k_hand, double k) {
     return force * (k_hand + k) / (k_hand * k);
 }
 
-/// Mean position of two or more fingers without the first. `p_WP(i)`: position of finger i.
+/// Mean position of two or more fingers, leaving out the first. `p_WP(i)`: position of finger i.
 template <class Positions>
 Vec3 opposing_point(size_t fingers, const Positions& p_WP) {
     Vec3 others = Vec3::Zero();

@@ -106,8 +106,8 @@ double phantom_determinant(const PhantomLinks& links, const Vec3& q) noexcept {
 
 Vec3 phantom_joints(const PhantomLinks& links, const Vec3& p_DH) noexcept {
     const double l1 = links.thigh, l2 = links.shin;
-    const double out = std::hypot(p_DH.x(), p_DH.z() + l1);  // from the turret's axis: rho
-    const double up = p_DH.y() - l2;                         // from the shoulder
+    const double out = std::hypot(p_DH.x(), p_DH.z() + l1);  // distance from the turret's axis: rho
+    const double up = p_DH.y() - l2;                         // height from the shoulder
     // out^2 + up^2 = l1^2 + l2^2 - 2 l1 l2 sin(q2 - q3), with |q2 - q3| within 90 degrees
     const double sine = (l1 * l1 + l2 * l2 - out * out - up * up) / (2 * l1 * l2);
     const double bend = std::asin(std::clamp(sine, -1.0, 1.0));

@@ -4,7 +4,8 @@
 // Joint angles q = (turret, thigh, shin) are zero in the reset pose: thigh level toward the person,
 // shin hanging at a right angle to it. Positive angles turn the turret to the right, and thigh and
 // shin up; the shin's angle is measured from the vertical. The device's frame D has its origin at
-// the endpoint in the reset pose, x right, y up, z toward the person. README.md has the equations.
+// the endpoint in the reset pose, x right, y up, z toward the person. README.md gives the
+// equations.
 #pragma once
 
 #include "base/geometry.h"
@@ -17,7 +18,7 @@ namespace dihaptic::model {
 struct PhantomLimits {
     Vec3 low;
     Vec3 high;
-    double bend_low;  ///< for the thigh's angle minus the shin's
+    double bend_low;  ///< limits of the thigh's angle minus the shin's
     double bend_high;
 };
 const PhantomLimits& phantom_limits();

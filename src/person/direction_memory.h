@@ -20,7 +20,7 @@ class DirectionMemory {
     /// `width`: w [rad].
     DirectionMemory(const model::SingleRate& rate, double width) : rate_(rate), width_(width) {}
 
-    /// `sum` plus x(d), d a unit vector.
+    /// `sum` plus x(d), for a unit vector d.
     Vec3 added_to(Vec3 sum, const Vec3& d) const noexcept;
     void learn(const Vec3& d, const Vec3& error) noexcept;
     bool empty() const noexcept { return count_ == 0; }

@@ -21,7 +21,8 @@ struct Sight {
 
 class Eyes {
   public:
-    /// `first`: index of the hand's first finger. `fingers`: how many it has. `delay`, `tick` [s].
+    /// `first`: index of the hand's first finger. `fingers`: number of its fingers. `delay`, `tick`
+    /// [s].
     Eyes(double delay, size_t first, size_t fingers, double tick)
         : delay_(delay), first_(first), fingers_(fingers), past_(delay, tick) {}
 

@@ -30,9 +30,9 @@ class ForceMemory {
         fast_.learn(d, error);
         slow_.learn(d, error);
     }
-    /// A night passes (learned.h).
+    /// Applies the effect of a night's sleep (learned.h).
     void sleep() noexcept { fast_.forget(); }
-    /// Whether nothing is known.
+    /// Whether nothing has been learned.
     bool empty() const noexcept { return fast_.empty() && slow_.empty(); }
 
   private:

@@ -26,10 +26,10 @@ constexpr double kSurprise =
     1.15;  // grip for the felt load over planned grip at which the person responds
 constexpr double kReplaced =
     0.7;                        // share of the weight below which something else carries the object
-constexpr double kTrust = 0.1;  // share of a doubt that a lift removes
+constexpr double kTrust = 0.1;  // share of the doubt about friction that a lift removes
 constexpr double kReflex = 1.15;        // factor on grip after a slip ...
 constexpr double kStrongestReflex = 2;  // ... and the largest in a hold
-constexpr double kReflexTime = 0.15;    // time before the next slip is a separate one [s]
+constexpr double kReflexTime = 0.15;    // time after which a slip is a separate one [s]
 constexpr double kDoubt = 0.6;     // least friction inferred from one slip, over the expected one
 constexpr double kMovement = 0.1;  // least integral of a^2 from which a mass is inferred [m^2/s^3]
 
@@ -175,8 +175,8 @@ void Grip::feel_mass(const Feeling& newest) noexcept {
     moved_ += a * a;
 }
 
-/// Desired grip force of each finger [N]: for the plan's expectation at this load force or, if it
-/// clearly requires more, for the felt load.
+/// Desired grip force of each finger [N]: for the plan's expectation at this load force or, if the
+/// felt load clearly requires more, for that load.
 double Grip::wanted(double now, double load, const Vec3& axis) const noexcept {
     Vec3 expected = load * up();
     double peak = 1;

@@ -37,7 +37,7 @@ class Grip {
     void close(double now, double grip) noexcept;
     /// Begins the load phase, and adds its force to `aim`.
     void lift(double now, Strokes& aim) noexcept;
-    /// Starts letting go.
+    /// Starts to release the object.
     void release(double now, Strokes& aim) noexcept;
     /// Call when a held object starts moving along `u`; ends with carried().
     void carry(const Vec3& u) noexcept;

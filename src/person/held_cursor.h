@@ -18,7 +18,7 @@ class HeldCursor {
         Vec3 felt = Vec3::Zero();
     };
 
-    /// `states` must outlive it.
+    /// `states` must outlive this object.
     explicit HeldCursor(const std::vector<task::TaskPlan::PlannedState>& states)
         : states_(states), left_(states.size()) {}
 

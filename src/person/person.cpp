@@ -24,13 +24,14 @@ constexpr double kSettled = 0.05;       // time after a stroke before its end is
 constexpr double kGoodEnough = 4e-3;    // error at the target that needs no correction [m]
 constexpr int kMostCorrections = 4;
 constexpr double kWorse = 1.2;     // growth of the error after which a person stops correcting it
-constexpr double kYields = 0.015;  // yielding under each finger above which it presses less [m]
+constexpr double kYields = 0.015;  // yielding under each finger above which the finger presses less
+                                   // [m]
 constexpr double kOver = 0.02;     // rise or fall above which a hand moves in two parts [m]
 constexpr double kOverlap = 0.6;   // share of the duration taken by each part
 constexpr double kGuided = 0.4;    // noise of such a movement, guided by eye, over a reach's noise
-constexpr double kOpening = 2e-3;  // increase of the aperture beyond which the hand lets go [m]
+constexpr double kOpening = 2e-3;  // increase of the aperture that releases the object [m]
 constexpr double kUpward = 2e-3;   // rise beyond which a hand that grips lifts [m]
-constexpr double kIdle = 0.4;      // time between trials before the hand goes to its rest [s]
+constexpr double kIdle = 0.4;      // time between trials before the hand goes to rest [s]
 constexpr double kRestTime = 0.6;  // duration of the movement to rest [s]
 constexpr double kRetry = 3;      // time in a state after which its finished steps are repeated [s]
 constexpr double kGivingUp = 10;  // delay of an attempt that is not made [s]
@@ -78,7 +79,7 @@ std::vector<hand::FingerPlace> own_places(const Situation& situation) {
         throw Error(other->place, other->name,
                     "belongs to another hand (it has its own centre or aperture), and precedes "
                     "fingers of the simulated person's hand",
-                    "List the fingers of the scene hand by hand; do not give the first hand's "
+                    "List the fingers of each hand together; do not give the first hand's "
                     "fingers their own centre.");
     }
     out.erase(other, out.end());
@@ -536,8 +537,8 @@ bool Person::from_above(const Vec3& displacement) const noexcept {
     return places_.size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
 }
 
-/// The movement that the hand must make to be shown moving by `displacement`, as far as this is
-/// learned.
+/// The movement that the hand must make to be shown moving by `displacement`, as far as this has
+/// been learned.
 Vec3 Person::made_for(const Vec3& displacement) const noexcept {
     if (displacement.norm() < 1e-9) return displacement;
     const auto state = static_cast<size_t>(acting_ - 1);
@@ -676,7 +677,7 @@ bool Person::correct(const Sight& sight) noexcept {
     if (now_ < aim_.end() + traits_.visual_delay + kSettled) return true;
     if (!sight.hand_shown) return false;  // an unseen hand is assumed to be at its goal
     judge_extent(sight);
-    if (cursor_.is_held()) return false;  // it does not follow the hand
+    if (cursor_.is_held()) return false;  // a held cursor does not follow the hand
     const Vec3 missed = look(target(sight, step) - sight.hand, traits_.visual_noise, random_);
     if (missed.norm() < kGoodEnough) return false;
     // where the display turns movements by more than 70 degrees, each stroke leads further away

@@ -44,7 +44,7 @@ class Person final : public task::SeeingDriver {
 
     /// What the person has learned and retained overnight.
     Learned learned() const;
-    /// Makes the person recall this from the session's beginning on.
+    /// Makes the person recall `before` from the beginning of the session on.
     void recall(Learned before);
 
     const Grip& grip() const { return grip_; }
@@ -171,7 +171,7 @@ class Person final : public task::SeeingDriver {
         Vec3::Zero();  // start of the last movement of sufficient length, as shown [m]
     Vec3 felt_from_ = Vec3::Zero();  // ... and as felt [m]
     double answer_at_ = -1;          // time of the answer [s]; negative: no question
-    size_t rated_ = 0;               // questions of the state that are answered
+    size_t rated_ = 0;               // number of the state's questions answered so far
     char key_ = 0;
     std::array<char, 12> typed_{};  // digits of a rating
     size_t typed_length_ = 0;

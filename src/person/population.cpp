@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostGroups = 1000;  // the traits of each group are checked
+constexpr size_t kMostGroups = 1000;  // bounds the time to check each group's traits
 constexpr double kFarthest = 2.5;     // largest |z|: no person is further from the median
 
 /// Traits that are zero in people without noise and mistakes.

@@ -45,7 +45,7 @@ struct TraitSpread {
           Field::text().required().says(
               "Name of the trait as in person.yaml, with its unit, if any."));
         v("law", law, says("Distribution of the trait over people."));
-        v("median", median, says("Median of the trait, in that unit."));
+        v("median", median, says("Median of the trait, in the unit that its name gives."));
         v("spread", spread, Field::number().within(0, 10).says("Factor of z in the law."));
         v("source", source, says("Source of these numbers."));
     }

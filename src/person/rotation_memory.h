@@ -16,7 +16,7 @@ class RotationMemory {
     /// Rotation vector of the displayed turn that the person expects in a reach toward the unit
     /// vector d [rad].
     Vec3 expected(const Vec3& d) const noexcept { return slow_.added_to(fast_, d); }
-    /// Magnitude of the learning of both processes there: |fast| + |slow(d)| [rad].
+    /// Magnitude of the learning of both processes for the direction d: |fast| + |slow(d)| [rad].
     double learned(const Vec3& d) const noexcept {
         return fast_.norm() + (expected(d) - fast_).norm();
     }
@@ -26,7 +26,7 @@ class RotationMemory {
         fast_ = rate_.retention * fast_ + rate_.learning * error;
         slow_.learn(d, error);
     }
-    /// A night passes (learned.h).
+    /// Applies the effect of a night's sleep (learned.h).
     void sleep() noexcept { fast_.setZero(); }
 
   private:

@@ -10,8 +10,8 @@ namespace dihaptic::person {
 namespace {
 
 constexpr const char* kRemedy =
-    "Rehearse the order and the timing of trials with it, but do not treat its figures as human "
-    "data.";
+    "Rehearse the order and timing of trials with simulated people, but do not treat their figures "
+    "as human data.";
 
 /// Whether the perturbation scales displayed movements.
 bool scales(const task::PerturbationSpec& perturbation) {
@@ -101,7 +101,7 @@ void warn_of_links(const task::TaskPlan& plan, std::vector<Problem>& out) {
     };
     for (const task::PerturbationSpec* perturbation : perturbations_with(plan, links)) {
         out.push_back({Severity::warning, perturbation->place, perturbation->name,
-                       "is a link, of which there is no model: simulated people do not learn it, "
+                       "is a link, for which there is no model: simulated people do not learn it, "
                        "and neither leads nor follows through it",
                        kRemedy});
     }
@@ -160,7 +160,7 @@ void warn_of_ratings(const task::TaskPlan& plan, std::vector<Problem>& out) {
         const auto ask = std::ranges::find_if(state.questions(), random);
         if (ask == state.questions().end()) continue;
         out.push_back({Severity::warning, ask->place, ask->name,
-                       "is a rating, of which there is no model: the answers of simulated people "
+                       "is a rating, for which there is no model: the answers of simulated people "
                        "are arbitrary",
                        kRemedy});
     }
@@ -176,7 +176,7 @@ void warn_of_pushes(const task::TaskPlan& plan, std::vector<Problem>& out) {
                        "they do in answer is the same whatever the force, and measures of it are "
                        "arbitrary",
                        kRemedy});
-        return;  // once: it is about the people, not about this motor
+        return;  // warn once: it concerns the people, not this motor
     }
 }
 

@@ -9,8 +9,9 @@
 
 namespace dihaptic::person {
 
-/// Warnings of force fields that no reach meets, then of thresholds and answers that are not
-/// judgements of length, of motors that push, then of buttons; each kind in the file's order.
+/// Warnings, kind by kind and each kind in the file's order: force fields that no reach meets,
+/// delays, shifts and links, thresholds and answers that are not judgements of length, ratings,
+/// motors that push, and buttons.
 std::vector<Problem> simulated_limits(const task::TaskPlan& plan);
 
 }  // namespace dihaptic::person

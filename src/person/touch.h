@@ -13,7 +13,7 @@ struct Feeling {
     bool held = false;            ///< two fingers or more press
     bool slips = false;           ///< a finger slides over the body that it presses
     double slip_friction =
-        0;            ///< tangential over normal force there; 0: the body turns under the finger
+        0;            ///< tangential over normal force of that finger; 0: the body turns under it
     double rise = 0;  ///< mean upward speed of the fingertips [m/s]
     Vec3 acceleration_W = Vec3::Zero();  ///< acceleration of the hand [m/s^2]
     double friction = 0;                 ///< friction of the skin on the touched body; 0: no touch

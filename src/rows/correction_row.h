@@ -26,20 +26,21 @@ struct CorrectionRow {
         v("trials", f.trials, "1", "trials in which something happened");
         v("matched", f.matched, "1", "matched trials, in which nothing happened");
         v("left_out", f.left_out, "1",
-          "trials of both kinds that ended before the comparison does");
+          "trials of both kinds that ended before the end of the comparison");
         v("compared", f.compared, "s",
-          "how far the means are compared: nine tenths of the trials of each kind last so long");
+          "time for which the means are compared; nine tenths of the trials of each kind last as "
+          "long");
         v("latency", f.latency, "s",
-          "from the state's beginning until the correction begins: the line through 25 % and 75 % "
-          "of the acceleration's peak is extended to zero (Oostwoud Wijdenes, Brenner and Smeets "
+          "time from the state's beginning to the correction's, where the line through 25 % and 75 "
+          "% of the acceleration's peak reaches zero (Oostwoud Wijdenes, Brenner and Smeets "
           "2014)");
         v("acceleration", f.acceleration, "m/s2",
-          "peak of the correction's acceleration along the axis: of the difference of the means");
+          "peak acceleration of the correction along the axis, from the difference of the means");
         v("velocity", f.velocity, "m/s",
           "peak of the difference of the mean velocities along the axis, in its first excursion");
         v("velocity_at", f.at, "s", "time of this peak");
-        v("velocity_error", f.error, "m/s", "its standard error");
-        v("not_measured", f.why, "", "why there is no latency");
+        v("velocity_error", f.error, "m/s", "standard error of this difference");
+        v("not_measured", f.why, "", "reason why there is no latency");
     }
 };
 

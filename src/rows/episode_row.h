@@ -31,26 +31,28 @@ struct EpisodeRow {
         v("stop_time", f.end, "s", "from the session's start");
         v("episode", f.kind, "", "hold, slide or flight of the object");
         v("fingers", f.finger_names, "",
-          "fingers that pressed the object; flight: fingers that let it go");
+          "fingers that pressed the object; flight: fingers that released it");
         v("slip", f.slip, "mm", "hold: largest slip of these fingers on the object");
         v("least_slip", f.least_slip, "mm",
-          "hold: slip of the finger that slipped least; in a hand-over, of the receiving finger");
+          "hold: slip of the finger that slipped least; in a hand-over, slip of the receiving "
+          "finger");
         v("sag", f.sag, "mm",
           "hold: lowest height of the object, relative to the start; at most 0");
         v("turn", f.turn, "deg",
           "hold: turn of the object when the line between its first two fingers had turned most");
-        v("hand_turn", f.hand_turn, "deg", "hold: turn of that line");
+        v("hand_turn", f.hand_turn, "deg", "hold: turn of the line between the first two fingers");
         v("distance", f.distance, "mm", "slide: length of the path");
         v("friction_ratio", f.friction_ratio, "1",
-          "slide: work of friction over mu N times the distance; 1 for a body that does not turn, "
-          "pushed or free");
+          "slide: ratio of the work of friction to mu N times the distance; 1 for a body that does "
+          "not turn, pushed or free");
         v("release_speed", f.release_speed, "m/s", "flight: speed at release");
         v("release_ratio", f.release_ratio, "1",
-          "flight: component of that velocity along the mean velocity of the releasing handles, "
-          "over that mean");
+          "flight: component of the release velocity along the mean velocity of the releasing "
+          "handles, over the magnitude of that mean");
         v("rise", f.rise, "mm", "flight: largest height above the point of release");
         v("off_path", f.off_path, "mm",
-          "flight: largest distance of its origin from the ballistic path of the first step");
+          "flight: largest distance of the object's origin from the ballistic path of the first "
+          "step");
     }
 };
 

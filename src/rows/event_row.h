@@ -9,7 +9,7 @@
 
 namespace dihaptic::rows {
 
-/// Version of the HED schema (www.hedtags.org) that has the tags.
+/// Version of the HED schema (www.hedtags.org) that contains the tags.
 inline constexpr const char* kHedSchema = "8.3.0";
 
 struct EventKind {
@@ -35,8 +35,8 @@ inline constexpr EventKind kEventKinds[] = {
     {"perturbation", "on or off", "Experiment-control"},
     {"put back", "number of bodies placed", "Experiment-control"},
     {"setting", "the setting and its new value", "Experiment-control"},
-    {"paused", "what pausing did", "Experiment-control"},
-    {"went on", "what it went on after", "Experiment-control"},
+    {"paused", "effect of the pause", "Experiment-control"},
+    {"went on", "the interruption after which it went on", "Experiment-control"},
     {"touch", "the finger, and the object touched", "Agent-action, Experiment-participant, Touch"},
     {"release", "the finger, and the object released",
      "Agent-action, Experiment-participant, Release"},
@@ -61,7 +61,8 @@ struct EventRow {
         v("trial", f.trial, "1", "trial number, from 1");
         v("event", f.name, "", "kind of event");
         v("detail", f.detail, "", "fingers, bodies or values concerned");
-        v("shown", f.shown, "s", "when its first picture appeared on the screen; empty: none");
+        v("shown", f.shown, "s",
+          "when the first picture of the event appeared on the screen; empty: none");
         v("heard", f.heard, "s", "when the sound left the loudspeaker; empty: not played");
     }
 };

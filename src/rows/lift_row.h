@@ -51,26 +51,33 @@ struct LiftRow {
         v("preload", f.preload, "s", "time from touch to load onset");
         v("loading", f.loading, "s", "time from the last digit's load onset to lift-off");
         v("releasing", f.releasing, "s", "time from replacement to release");
-        v("peak_grip", f.peak_grip, "N", "peak of the mean over digits, from touch to lowering");
-        v("peak_grip_time", f.peak_grip_time, "s", "time of the peak, from lift-off");
-        v("peak_load", f.peak_load, "N", "peak of the sum over digits, from touch to lowering");
-        v("peak_grip_rate", f.peak_grip_rate, "N/s", "largest rise before lift-off");
-        v("peak_load_rate", f.peak_load_rate, "N/s", "largest rise before lift-off");
+        v("peak_grip", f.peak_grip, "N",
+          "peak of the grip (mean over digits), from touch to lowering");
+        v("peak_grip_time", f.peak_grip_time, "s", "time of the peak of the grip, from lift-off");
+        v("peak_load", f.peak_load, "N",
+          "peak of the load (sum over digits), from touch to lowering");
+        v("peak_grip_rate", f.peak_grip_rate, "N/s",
+          "largest rate of rise of the grip before lift-off");
+        v("peak_load_rate", f.peak_load_rate, "N/s",
+          "largest rate of rise of the load before lift-off");
         v("lift_off_grip", f.lift_off_grip, "N", "grip at lift-off");
         v("static_grip", f.static_grip, "N",
-          "mean in the hold: from 600 to 200 ms before lowering");
-        v("static_load", f.static_load, "N", "mean in the hold");
-        v("static_ratio", f.static_ratio, "1", "static grip over static load");
+          "mean grip in the hold: from 600 to 200 ms before lowering");
+        v("static_load", f.static_load, "N", "mean load in the hold");
+        v("static_ratio", f.static_ratio, "1", "ratio of static grip to static load");
         v("safety_margin", f.safety_margin, "1",
           "share of the static grip in excess of the minimum against slip");
-        v("grip_load_r", f.grip_load_r, "1", "r of the rates of grip and load while loading");
+        v("grip_load_r", f.grip_load_r, "1",
+          "correlation r of the rates of grip and load while loading");
         v("grip_load_r_peak", f.grip_load_r_peak, "1",
           "largest r with the grip shifted by up to 100 ms");
-        v("grip_load_lag", f.grip_load_lag, "s", "shift with that r; positive: grip follows load");
-        v("slope", f.slope, "1", "slope of the line grip = offset + slope load, while loading");
+        v("grip_load_lag", f.grip_load_lag, "s",
+          "shift with the largest r; positive: grip follows load");
+        v("slope", f.slope, "1", "slope of the line grip = offset + slope * load, while loading");
         v("offset", f.offset, "N", "offset of that line");
-        v("height", f.height, "mm", "mean in the hold, above the object's height at the start");
-        v("overshoot", f.overshoot, "mm", "largest height above that mean");
+        v("height", f.height, "mm",
+          "mean height in the hold, above the object's height at the start");
+        v("overshoot", f.overshoot, "mm", "largest height above the mean height in the hold");
         v("slip", f.slip, "mm", "slip of the digit that slipped most, from lift-off to lowering");
         v("slips", f.slips, "1", "number of times that a digit slid faster than 5 mm/s");
         v("first_slip", f.first_slip, "s",

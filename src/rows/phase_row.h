@@ -26,14 +26,14 @@ struct PhaseRow {
         v("peak_grip", f.peak_grip, "N", "largest grip force");
         v("mean_load", f.mean_load, "N",
           "tangential contact forces along gravity, summed over the digits");
-        v("mean_force", f.mean_force, "N", "mean force on the busiest finger");
+        v("mean_force", f.mean_force, "N", "largest of the fingers' mean forces");
         v("peak_force", f.peak_force, "N", "largest force on any finger");
         v("slip", f.slip, "mm",
           "largest slip of a finger on the object; empty unless all held it throughout");
         v("weight_felt", f.weight_felt, "1",
-          "vertical handle forces over the object's weight; empty unless it is carried");
+          "ratio of vertical handle forces to the object's weight; empty unless it is carried");
         v("mean_torque", f.mean_torque, "N*m",
-          "largest torque on any handle, mean; empty without orientation");
+          "mean over time of the largest torque on any handle; empty without orientation");
         v("peak_torque", f.peak_torque, "N*m", "largest torque on any handle");
     }
 };

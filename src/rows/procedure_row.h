@@ -26,8 +26,9 @@ struct ProcedureRow {
     static void visit(Self& f, Visitor& v) {
         v("procedure", f.procedure, "", "name of the procedure");
         v("kind", f.kind, "", "staircase, quest, quest_plus or constant");
-        v("perturbation", f.perturbation, "", "perturbation whose share it chooses, or that acts");
-        v("logarithmic", f.logarithmic, "", "the share, or the number, is 10^level");
+        v("perturbation", f.perturbation, "",
+          "perturbation whose share the procedure chooses, or that acts");
+        v("logarithmic", f.logarithmic, "", "whether the share, or the number, is 10^level");
         v("yes", f.yes, "", "outcome that becomes more likely as the level rises");
         v("no", f.no, "", "the other outcome");
         v("sigmoid", f.sigmoid, "", "sigmoid of the psychometric function");

@@ -124,11 +124,11 @@ class RowFile {
 
     /// The column with this name, which a task or a person chose; nullopt if there is none.
     std::optional<size_t> column(const std::string& name) const { return table_.column(name); }
-    /// A cell; empty without a column.
+    /// A cell; empty if there is no column.
     const std::string& text(size_t row, std::optional<size_t> column) const {
         return table_.text(row, column);
     }
-    /// NaN if the cell holds no number, or without a column.
+    /// NaN if the cell holds no number, or if there is no column.
     double number(size_t row, std::optional<size_t> column) const {
         return table_.number(row, column);
     }

@@ -77,12 +77,14 @@ struct TrialMeasures {
         v("reach_time", f.reach_time, "s",
           "time from the attempt's start until the reach was measured");
         v("hand_angle_deg", f.hand_angle_deg, "deg",
-          "direction error of the handle at that time, from the target's direction, about the "
-          "axis");
-        v("shown_angle_deg", f.shown_angle_deg, "deg", "as before, for the displayed handle");
+          "direction error of the handle when the reach was measured, from the target's direction, "
+          "about the axis");
+        v("shown_angle_deg", f.shown_angle_deg, "deg",
+          "the same direction error of the displayed handle");
         v("hand_extent_mm", f.hand_extent_mm, "mm",
           "length of the handle's first stroke, toward the target");
-        v("shown_extent_mm", f.shown_extent_mm, "mm", "as before, for the displayed handle");
+        v("shown_extent_mm", f.shown_extent_mm, "mm",
+          "length of the displayed handle's first stroke");
         v("wanted_extent_mm", f.wanted_extent_mm, "mm",
           "length that would have led to the target, from the handle's first displayed position");
     }

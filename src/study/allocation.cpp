@@ -45,7 +45,7 @@ std::vector<std::string> block_of(const StudyFile& study) {
 /// The group at the first free place of the sequence.
 std::string next_in_sequence(const StudyFile& study, const Roster& roster) {
     std::map<std::string, int> seen;
-    // long enough for every group's target number, even where it ends within a block
+    // long enough for every group's target number, even if the last block is not filled
     const auto count = static_cast<size_t>(study.people() + 2 * block_size(study));
     for (const std::string& group : sequence_of(study, count)) {
         const int active = roster.active(group);
@@ -54,8 +54,8 @@ std::string next_in_sequence(const StudyFile& study, const Roster& roster) {
     return "";  // not reached: the caller checked that a group has a free place
 }
 
-/// The sum over facts of the range between groups of the shares of people with the person's value,
-/// if the person joined `joined`.
+/// The sum over facts of a range, if the person joined `joined`: the range, between groups, of the
+/// share of people with the person's value.
 double imbalance(const StudyFile& study, const Roster& roster, const Member& person,
                  const std::string& joined) {
     double out = 0;

@@ -1,10 +1,10 @@
 // The group and the number of the next participant.
 //
-// In turn, and in permuted blocks, the study has a sequence of groups, and the next participant
-// takes the first free place in it. A place is free again when its holder withdraws. Minimisation
-// (Pocock and Simon 1975) adds up, for each group that the person might join, the ranges between
-// groups of the shares of people with the same value of each fact, and chooses the group with the
-// smallest sum with probability `chance`, any other one otherwise.
+// If people are allocated in turn or in permuted blocks, the study has a sequence of groups, and
+// the next participant takes its first free place. A place is free again when its holder withdraws.
+// Minimisation (Pocock and Simon 1975) adds up, for each group that the person might join, the
+// ranges between groups of the shares of people with the same value of each fact, and chooses the
+// group with the smallest sum with probability `chance`, and otherwise one of the other groups.
 #pragma once
 
 #include <string>

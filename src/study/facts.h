@@ -1,4 +1,4 @@
-// The facts of a study's participants, and the proportion of its groups.
+// The facts of a study's participants, and the proportions of its groups.
 #pragma once
 
 #include <array>

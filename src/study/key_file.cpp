@@ -34,7 +34,8 @@ bool is_in(const std::string& file, const std::string& folder) {
 
 KeyFile::KeyFile(const StudyFile& study, std::string file, Missing missing)
     : file_(std::move(file)) {
-    if (file_.empty()) throw Error({"--key", 0}, "", "names no file", "Name the file of names.");
+    if (file_.empty())
+        throw Error({"--key", 0}, "", "names no file", "Name the file that contains the names.");
     if (is_in(file_, study.data)) {
         throw Error({file_, 0}, "", "is in the study's folder, and would be shared with the data",
                     "Keep names elsewhere, e.g. on an encrypted disk.");
@@ -42,14 +43,14 @@ KeyFile::KeyFile(const StudyFile& study, std::string file, Missing missing)
     struct stat there {};
     if (::stat(file_.c_str(), &there) != 0) {
         if (missing == Missing::is_refused)
-            throw Error({file_, 0}, "", "does not exist", "Name the file of names.");
+            throw Error({file_, 0}, "", "does not exist", "Name the file that contains the names.");
         check_output(file_, "", "");
         return;
     }
     if (!S_ISREG(there.st_mode))
-        throw Error({file_, 0}, "", "is not a file", "Name the file of names.");
+        throw Error({file_, 0}, "", "is not a file", "Name the file that contains the names.");
     if ((there.st_mode & kOthers) != 0) {
-        throw Error({file_, 0}, "", "contains names, and others may read it",
+        throw Error({file_, 0}, "", "contains names, but others can read it",
                     fmt::format("Run: chmod 600 {}", file_));
     }
     const rows::RowFile<Key> table(file_);

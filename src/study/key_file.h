@@ -26,11 +26,11 @@ struct Key {
 class KeyFile {
   public:
     enum class Missing { is_made, is_refused };
-    /// Reads the file. Throws Error if it lies in the study's folder, if others may read it, if it
+    /// Reads the file. Throws Error if it lies in the study's folder, if others can read it, if it
     /// is not a key file or, unless a missing file is to be made, if it does not exist.
     KeyFile(const StudyFile& study, std::string file, Missing missing);
 
-    /// Null if the participant has no name in it.
+    /// Null if the file has no name for the participant.
     const Key* find(const std::string& participant) const;
     /// Adds a participant, and writes the file. Throws Error if the participant has another name.
     void add(const Key& key);

@@ -103,7 +103,7 @@ void check_identifier(const std::string& id) {
     const bool word =
         std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
     if (id.empty() || !word || id.size() > 32)
-        throw fault("is not an identifier", "Use letters and digits, 32 at most, e.g. S07.");
+        throw fault("is not an identifier", "Use at most 32 letters and digits, e.g. S07.");
     if (std::none_of(id.begin(), id.end(), [](unsigned char c) { return std::isdigit(c) != 0; }))
         throw fault("has no digit, and may be a person's name",
                     "Use an identifier, e.g. S07, and keep the list of names elsewhere.");
@@ -155,7 +155,7 @@ Roster read_roster(const StudyFile& study) {
 void write_roster(const StudyFile& study, Roster roster) {
     roster.study = study.title;
     for (Member& member : roster.participants) member.group = study.shown_group(member.group);
-    write_file("# Written by dihaptic participant: see --help there before you change it.\n" +
+    write_file("# Written by dihaptic participant: see its --help before you change this file.\n" +
                    to_yaml(write_fields(roster)),
                file_of(study), Keep::at_once);
 }
@@ -203,11 +203,11 @@ void log(const StudyFile& study, const std::string& action, const std::string& p
     for (const std::string& cell : {recording::iso_now(), action, participant})
         text += to_csv(Table::Cell(cell)) + ",";
     text += to_csv(Table::Cell(detail)) + "\n";
-    // one write: lines of several programs do not mix
+    // a single write, so that lines of several programs do not mix
     if (!out || ::write(out.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()) ||
         ::fsync(out.get()) != 0) {
         throw Error({file, 0}, "", fmt::format("cannot be written: {}", std::strerror(errno)),
-                    "Nothing was changed: repeat the command once it can be.");
+                    "Nothing was changed: repeat the command once the file can be written.");
     }
 }
 
@@ -222,7 +222,7 @@ StudyLock::StudyLock(const StudyFile& study)
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
     throw Error({study.data, 0}, "", "has been in use by another dihaptic for 10 s",
-                "Repeat the command once that one has ended.");
+                "Repeat the command once that program has ended.");
 }
 
 }  // namespace dihaptic::study

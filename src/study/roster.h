@@ -1,5 +1,5 @@
 // The participants of a study, in participants.yaml next to the study's file, and the log of every
-// action that concerns them. Identifiers only: a list of names belongs elsewhere.
+// action that concerns them. They contain identifiers only: a list of names belongs elsewhere.
 #pragma once
 
 #include <string>
@@ -19,9 +19,9 @@ struct Member {
     std::string age, sex, handedness;
     std::vector<recording::Fact> facts;
     std::string added;      ///< ISO 8601
-    int version = 0;        ///< of the study's files when added
-    std::string withdrawn;  ///< ISO 8601; empty: takes part
-    std::string reason;     ///< of the withdrawal
+    int version = 0;        ///< version of the study's files when the person was added
+    std::string withdrawn;  ///< time (ISO 8601); empty: takes part
+    std::string reason;     ///< reason for the withdrawal
     bool data_deleted = false;
 
     template <class Visitor>

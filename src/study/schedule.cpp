@@ -15,7 +15,8 @@
 namespace dihaptic::study {
 namespace {
 
-/// The latest recording of a session that counts: a complete one, or the last incomplete one.
+/// The recording that stands for a session: the first complete one, or else the last incomplete
+/// one.
 const Visit* latest(const std::vector<Visit>& visits, size_t session) {
     const Visit* out = nullptr;
     for (const Visit& visit : visits) {
@@ -112,7 +113,7 @@ Next next_for(const StudyFile& study, const std::vector<Visit>& visits, double n
                 next.act = Act::begin;
                 next.note = fmt::format(
                     "{} was interrupted {:.1f} h ago with {} of {} trials: it starts again, and "
-                    "both recordings stay",
+                    "both recordings are kept",
                     visit->folder, age, visit->done, visit->trials);
                 break;
             }
@@ -148,7 +149,7 @@ std::string unmet(const Condition& condition, const std::string& trials) {
     const std::string what =
         condition.is.empty() ? fmt::format("the mean of {}", condition.column)
                              : fmt::format("the share of {} = {}", condition.column, condition.is);
-    if (count == 0) return fmt::format("{} is not known: no trial of {} has it", what, trials);
+    if (count == 0) return fmt::format("{} is not known: no trial of {} has a value", what, trials);
     const double value = sum / count;
     if (condition.at_least && value < *condition.at_least)
         return fmt::format("{} is {:.4g} in {} trials; at least {:g} is required", what, value,

@@ -12,11 +12,11 @@ namespace dihaptic::study {
 struct Visit {
     size_t session = 0;  ///< index in the study
     std::string folder;
-    double started = 0;  ///< [s], of the first recording if it was resumed: seconds_of()
+    double started = 0;  ///< start, by seconds_of() [s]; of the first recording if it was resumed
     bool complete = false;
-    bool running = false;         ///< at this moment
+    bool running = false;         ///< the session runs at this moment
     bool killed = false;          ///< its program ended before the session did
-    size_t done = 0, trials = 0;  ///< of an incomplete one
+    size_t done = 0, trials = 0;  ///< trials done, and all its trials, if it is incomplete
 };
 
 enum class Act { begin, resume, none };
@@ -24,10 +24,10 @@ enum class Act { begin, resume, none };
 struct Next {
     Act act = Act::none;  ///< none: all sessions are complete
     size_t session = 0;
-    std::string folder;                ///< of the session to be resumed
+    std::string folder;                ///< folder of the session to be resumed
     std::string after;                 ///< folder of the previous session; empty: none
     std::string note;                  ///< about an interrupted session; may be empty
-    std::vector<std::string> against;  ///< why it may not begin now; each with a figure
+    std::vector<std::string> against;  ///< reasons against starting now, each with a figure
 };
 
 /// Seconds since 1970 of an ISO 8601 time with offset, "2026-01-31T09:30:00+01:00". NaN if it
@@ -38,7 +38,7 @@ double seconds_of(const std::string& iso);
 /// of its trials are done as the study's `resuming` asks for. Null: none.
 const Visit* counted(const StudyFile& study, const std::vector<Visit>& visits, size_t session);
 
-/// A seed from words, with which each participant's sessions keep seeds of their own: 1 plus the
+/// A seed made from words, so that each participant's sessions have seeds of their own: 1 plus the
 /// words' CRC-32.
 uint64_t seed_of(const std::string& words);
 

@@ -29,7 +29,7 @@ bool uses(const SessionSpec& session, std::string_view placeholder) {
     return session.experiment.find(placeholder) != std::string::npos;
 }
 
-/// Whether a word has only letters, digits and `others`, and can be a part of a file's name.
+/// Whether a word contains only letters, digits and `others`, and can be a part of a file's name.
 bool is_word(const std::string& word, const char* others) {
     return !word.empty() && std::all_of(word.begin(), word.end(), [&](unsigned char c) {
         return std::isalnum(c) != 0 ||
@@ -58,8 +58,8 @@ class Checker {
         diagnostics_.error(place, key, what, remedy);
     }
 
-    /// Reports a name that is empty, has characters other than letters, digits and `others`, or
-    /// occurs twice.
+    /// Reports a name that is empty, contains characters other than letters, digits and `others`,
+    /// or occurs twice.
     void check_name(const Place& place, const char* key, const std::string& name,
                     const char* others, std::set<std::string>& names) {
         if (!is_word(name, others)) {
@@ -90,15 +90,16 @@ class Checker {
         const Allocation& a = study_.allocation;
         const int smallest = smallest_block(study_);
         if (a.block != 0 && a.method != Method::blocks)
-            error(a.place, "block", "is only used by method: blocks", "Leave it out.");
+            error(a.place, "block", "is only used with 'method: blocks'", "Leave it out.");
         if (a.block != 0 && smallest > 0 && a.block % smallest != 0)
             error(a.place, "block",
-                  fmt::format("is {}, which does not hold the groups in proportion", a.block),
+                  fmt::format("is {}, in which the groups cannot be in proportion", a.block),
                   fmt::format("Use a multiple of {}.", smallest));
         const bool minimises = a.method == Method::minimisation;
         if (minimises == a.over.empty())
             error(
-                a.place, "over", minimises ? "is missing" : "is only used by method: minimisation",
+                a.place, "over",
+                minimises ? "is missing" : "is only used with 'method: minimisation'",
                 minimises ? "Name the facts that it balances, e.g. over: [sex]." : "Leave it out.");
         check_group_fact();
         for (const std::string& fact : a.over) {
@@ -106,7 +107,7 @@ class Checker {
                 unknown_fact(a.place, "over", fact);
             } else if (is_number(study_, fact)) {
                 error(a.place, "over",
-                      fmt::format("'{}' is a number, of which few people have the same", fact),
+                      fmt::format("'{}' is a number, and few people have the same one", fact),
                       "Add a fact with a few values, e.g. facts: [{ name: age_band, values: "
                       "[young, old] }].");
             }
@@ -118,7 +119,7 @@ class Checker {
         const Allocation& a = study_.allocation;
         const bool by_fact = a.method == Method::fact;
         if (by_fact == a.fact.empty()) {
-            error(a.place, "fact", by_fact ? "is missing" : "is only used by method: fact",
+            error(a.place, "fact", by_fact ? "is missing" : "is only used with 'method: fact'",
                   by_fact ? "Name the fact, e.g. fact: diagnosis." : "Leave it out.");
             return;
         }
@@ -128,7 +129,7 @@ class Checker {
         for (const Group& group : study_.groups) names.push_back(group.name);
         if (spec == nullptr || spec->values != names)
             error(a.place, "fact",
-                  fmt::format("'{}' does not have the groups as its values", a.fact),
+                  fmt::format("the values of '{}' are not the names of the groups", a.fact),
                   fmt::format("Write facts: [{{ name: {}, values: [{}] }}].", a.fact,
                               fmt::join(names, ", ")));
     }
@@ -215,9 +216,9 @@ class Checker {
             error(need.place, "column", "has no condition", "Add at_least or at_most.");
         if (need.column == "outcome" && need.is.empty())
             error(need.place, "is", "is missing: an outcome is a text, and has no mean",
-                  "Write the outcome whose share of trials counts, e.g. is: reached.");
+                  "Write the outcome whose share of trials is meant, e.g. is: reached.");
         if (!need.is.empty() && std::max(need.at_least.value_or(0), need.at_most.value_or(0)) > 1)
-            error(need.place, "at_least", "is a share of trials, which is 1 at most",
+            error(need.place, "at_least", "is a share of trials, which is at most 1",
                   "Write e.g. 0.8 for 80 %.");
     }
 

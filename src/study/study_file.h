@@ -38,8 +38,8 @@ struct Allocation {
     Method method = Method::in_turn;
     int block = 0;                  ///< people per block; 0: twice the smallest block
     std::vector<std::string> over;  ///< facts that minimisation balances
-    std::string fact;               ///< whose value is the name of the group
-    double chance = 0.8;            ///< that minimisation follows the balance
+    std::string fact;               ///< fact whose value is the name of the group
+    double chance = 0.8;  ///< probability that minimisation chooses the best balanced group
     int seed = 1;
     bool concealed = false;  ///< the operator does not see groups
     Place place;
@@ -68,7 +68,7 @@ struct Allocation {
 /// A fact that is asked of every participant, besides age, sex and handedness.
 struct FactSpec {
     std::string name;
-    std::vector<std::string> values;  ///< those allowed; empty: a number
+    std::vector<std::string> values;  ///< allowed values; empty: a number
     Place place;
 
     template <class Visitor>
@@ -98,7 +98,7 @@ struct Criterion {
 /// A condition on the previous session. A text's share or a number's mean is taken over the last
 /// attempts at its trials.
 struct Condition {
-    std::string column;  ///< of trials.csv
+    std::string column;  ///< column of trials.csv
     std::string is;      ///< the text whose share is taken; empty: the mean is taken
     std::optional<double> at_least, at_most;
     Place place;
@@ -120,7 +120,7 @@ struct SessionSpec {
     std::string name;
     std::string
         experiment;  ///< file, relative to the study's; {group} and {condition} are replaced
-    std::optional<double> least_gap, most_gap;  ///< [h], from start to start
+    std::optional<double> least_gap, most_gap;  ///< between the starts of two sessions [h]
     std::vector<Condition> needs;
     Place place;
 
@@ -132,11 +132,11 @@ struct SessionSpec {
               "Experiment file, relative to this file. {group} and {condition} stand for the "
               "participant's group and the session's condition."));
         v("least_gap_h", least_gap,
-          Field::number().within(0, 1e5).says(
-              "Least time from the start of the previous session to the start of this one [h]."));
+          Field::number().within(0, 1e5).says("Shortest time from the start of the previous "
+                                              "session to the start of this one [h]."));
         v("most_gap_h", most_gap,
           Field::number().within(0, 1e5).says(
-              "Most time from the start of the previous session to the start of this one [h]."));
+              "Longest time from the start of the previous session to the start of this one [h]."));
         v("needs", needs,
           says("Conditions on the previous session, without which this one does not "
                "begin."));
@@ -173,7 +173,7 @@ struct StudyFile {
     task::Order order = task::Order::latin_square;
     std::vector<SessionSpec> sessions;
     Resuming resuming;
-    std::string folder;  ///< of the file; not in the file
+    std::string folder;  ///< folder of the file; not stored in it
     std::string data;  ///< folder of participants and recordings: that of the file, or another one
     Place place;
 
@@ -190,7 +190,7 @@ struct StudyFile {
                "that differs between participants."));
         v("order", order,
           says("Order of the conditions, by the participant's number in the group, as for blocks "
-               "of trials; shuffled: from the allocation's seed."));
+               "of trials; a shuffled order follows from the allocation's seed."));
         v("sessions", sessions, says("Sessions of every participant, in their order."));
         v("resuming", resuming, says("What happens to a session that was interrupted."));
     }

@@ -78,7 +78,7 @@ class Paradigms(unittest.TestCase):
         self.assertTrue(all(0.02 < b - a < 0.15 for a, b in zip(medians, medians[1:])), medians)
         for row in where(done.trials, kind="catch"):
             self.assertEqual(row["grip_latency_s"], "")
-            self.assertIn("grip_latency: grip did not answer", row["not_measured"])
+            self.assertIn("grip_latency: grip did not respond", row["not_measured"])
         for rows in done.people:
             waits = numbers(rows, "foreperiod_s")
             self.assertEqual(len(set(waits)), len(waits))
@@ -88,7 +88,7 @@ class Paradigms(unittest.TestCase):
     def test_size_weight(self):
         done = Rehearsal(self, "size-weight", repeats=("20", "10"))
         self.assertEqual(len(done.warnings), 1, done.warnings)
-        self.assertIn("is a rating, of which there is no model", done.warnings[0])
+        self.assertIn("is a rating, for which there is no model", done.warnings[0])
         self.assertTrue(all(row["outcome"] == "rated" for row in done.trials))
         self.assertTrue(all(1 <= answer <= 9 for answer in numbers(done.trials, "heaviness")))
         first, last = [], []  # rate of load force for the large cube over that for the small one

@@ -104,7 +104,7 @@ class Studies(unittest.TestCase):
             self.refused(self.participant("add", "S03", *FACTS, *named), "already belongs to a name")
             pathlib.Path(key).write_text(pathlib.Path(key).read_text().replace("S03,Eve,\n", ""))
             os.chmod(key, 0o644)
-            self.refused(self.participant("show", "S01", "--key", key), "others may read it", "chmod 600")
+            self.refused(self.participant("show", "S01", "--key", key), "others can read it", "chmod 600")
             os.chmod(key, 0o600)
             said = self.participant("withdraw", "S01", "--keep-data", "--key", key)
             self.assertEqual(said.returncode, 0, said.stderr)
@@ -400,7 +400,7 @@ class Studies(unittest.TestCase):
         self.assertIn("group abrupt, number 2", self.add("S02", *facts, "vision=abrupt"))
         self.refused(self.participant("add", "S03", *facts, "vision=abrupt"), "the group abrupt has all of its 2")
         self.write(STUDY + "allocation: { method: fact, fact: vision }\n")
-        self.refused(dihaptic("check", self.study), "does not have the groups as its values",
+        self.refused(dihaptic("check", self.study), "are not the names of the groups",
                      "values: [gradual, abrupt]")
 
     def test_a_fact_that_tells_a_concealed_group_is_in_no_recording(self):

@@ -187,7 +187,7 @@ class Paradigms(unittest.TestCase):
         (fits,) = dh.load(session.folder).table("fits").to_dict("records")
         for window in ["early", "late", "catch", "savings", "rebound"]:
             self.assertTrue(np.isnan(fits[window]), window)
-        self.assertEqual(fits["note"], "no early, late, catch, savings and rebound: the perturbation has both signs in random")
+        self.assertEqual(fits["note"], "no early, late, catch, savings or rebound: the perturbation has both signs in random")
         self.assertTrue(np.isfinite(fits["baseline"]) and np.isfinite(fits["washout_first"]), fits)
 
     def test_forces_are_compared_only_while_the_channel_acts(self):
@@ -229,7 +229,7 @@ task:
         # in the states of the way home no channel acts, and the movement that is found there says so
         home = self.run_task(task.replace("DURING", "back, lead in, reach").replace("CONTINUES", ""))
         channels = home.trials[home.trials.kind == "force_channel"]
-        told = channels.not_measured.str.contains("no channel acted in its movement")
+        told = channels.not_measured.str.contains("no channel acted during the movement")
         self.assertTrue((told | channels.adaptation_index.isna() | (channels.adaptation_index != 0)).all())
 
     def compare_index(self, session):

@@ -145,7 +145,7 @@ def _not_measured(trials: pd.DataFrame) -> pd.DataFrame:
 
 
 def _alike(reasons: pd.Series) -> pd.Series:
-    """Reasons that differ in a number alone, as one: "it covered ... % of the way"."""
+    """Reasons that differ in a number alone, as one: "the movement covered ... % of the way"."""
     number = re.compile(r"\d+(?:\.\d+)?")
     pattern = reasons.str.replace(number, "\0", regex=True)
     found = reasons.map(number.findall)

@@ -48,17 +48,17 @@ std::string readme(const std::string& title, const std::string& program, bool si
                   : "Persons took part in it, at force-feedback devices, or by mouse at simulated "
                     "ones, as\nthe column moved_by of participants.tsv states.\n";
     return title + "\n\n" + who +
-           "\nEach run has the motion of each finger as a separate tracking system: the device's "
-           "handle,\nthe finger in the virtual world (proxy), the force on the handle and the "
-           "force of the touched\nbodies. The tracking system `objects` has the virtual objects "
-           "that can move. All are in the\nworld's axes: x to the right, y away from the person, z "
-           "up, origin on the table top; in SI\nunits. Rows without a recording after damage are "
-           "left out: the LATENCY column has each row's\ntime.\n\nevents.tsv has a row for each "
-           "attempt at a trial (trial_type `trial`), with its block,\ncondition, perturbation, "
-           "outcome and measures, and a row for each moment: phases, touches,\nmessages, markers, "
-           "outcomes. events.json describes each column.\n\nAuthors, licence and funding are in "
-           "dataset_description.json as far as they are known:\ncomplete them before you share the "
-           "data.\n\nMade by " +
+           "\nEach run contains the motion of each finger as a separate tracking system: the "
+           "device's handle,\nthe finger in the virtual world (proxy), the force on the handle and "
+           "the force of the touched\nbodies. The tracking system `objects` contains the virtual "
+           "objects that can move. All are in the\nworld's axes: x to the right, y away from the "
+           "person, z up, origin on the table top; in SI\nunits. Rows without a recording after "
+           "damage are left out: the LATENCY column has each row's\ntime.\n\nevents.tsv has a row "
+           "for each attempt at a trial (trial_type `trial`), with its block,\ncondition, "
+           "perturbation, outcome and measures, and a row for each moment: phases, "
+           "touches,\nmessages, markers, outcomes. events.json describes each column.\n\nAuthors, "
+           "licence and funding are in dataset_description.json as far as they are "
+           "known:\ncomplete them before you share the data.\n\nMade by " +
            program + " with `dihaptic export`.\n";
 }
 
@@ -78,7 +78,7 @@ const Json kParticipantColumns{
       {"Levels", {{"yes", "no person took part"}, {"no", "a person took part"}}}}},
     {"moved_by",
      {{"Description",
-       "source of the hand's movement; if runs differ, several, separated by commas"},
+       "source of the hand's movement; if runs differ, all sources, separated by commas"},
       {"Levels",
        {{"devices", "a person held the devices"},
         {"mouse", "a person moved simulated devices by mouse"},
@@ -89,7 +89,7 @@ const Json kParticipantColumns{
     {"population", {{"Description", "population from which the simulated person was drawn"}}},
     {"seed", {{"Description", "seed with which the person was drawn"}}}};
 
-/// Column of participants.tsv for a fact of the study's own.
+/// Column of participants.tsv for one of the study's own facts.
 std::string column_of(const recording::Fact& fact) {
     return kParticipantColumns.contains(fact.name) ? "fact_" + fact.name : fact.name;
 }
@@ -147,7 +147,7 @@ void DataSet::check_participant() const {
         if (there.empty() || here.empty() || there == here) return;
         throw Error(
             {name, 0}, subject_,
-            fmt::format("is {} {} there, but {} here: they are different", what, there, here),
+            fmt::format("is {} {} in the data set, but {} in this session", what, there, here),
             "Name another folder, or give one of them another identifier: BIDS labels have letters "
             "and digits only.");
     };
@@ -215,7 +215,7 @@ void DataSet::describe_participants() const {
         for (const recording::Fact& fact : info_.in_study->facts) {
             const std::string column = column_of(fact);
             if (!columns.contains(column))
-                columns[column] = {{"Description", "fact of the participant, in the study"}};
+                columns[column] = {{"Description", "fact about the participant, from the study"}};
         }
     }
     if (!there || columns != before) write_anew(columns.dump(2) + "\n", name);
@@ -256,7 +256,7 @@ void DataSet::add_participant() const {
         }
     }
     if (people.has(subject_)) {
-        // existing facts on a participant are kept, and only added to
+        // facts already stated about a participant are kept; only missing ones are added
         for (size_t i = 1; i < columns.size(); ++i) {
             const std::string there = people.text(subject_, columns[i]);
             if (columns[i] != "moved_by" && !there.empty()) row[i] = there;
@@ -290,10 +290,11 @@ void DataSet::add(const std::vector<std::string>& recordings) const {
                    info_.identity, info_.moved_by.simulated(), info_.moved_by.name()});
     }
     table.write();
-    const Json columns{{"session", {{"Description", "folder of the recorded session"}}},
-                       {"identity", {{"Description", "of the recording, in its session.yaml"}}},
-                       {"simulated", {{"Description", recording::kMovedByColumns[0].description}}},
-                       {"moved_by", {{"Description", recording::kMovedByColumns[1].description}}}};
+    const Json columns{
+        {"session", {{"Description", "folder of the recorded session"}}},
+        {"identity", {{"Description", "identity of the recording, from its session.yaml"}}},
+        {"simulated", {{"Description", recording::kMovedByColumns[0].description}}},
+        {"moved_by", {{"Description", recording::kMovedByColumns[1].description}}}};
     const std::string json = file(place() + "/" + stem() + "_scans.json");
     if (!is_there(json)) write_anew(columns.dump(2) + "\n", json);
 }

@@ -61,7 +61,7 @@ std::vector<Column> columns_for(const rows::TrialFile& trials, const rows::LiftF
     const auto add = [&](const Table::Column& column, Column::Of of) {
         if (const auto from = trials.column(column.name)) out.push_back({column, of, *from});
     };
-    // rows of moments in a trial also have the data known before its start
+    // rows of moments in a trial also contain the data known before its start
     std::vector<Table::Column> asked = list_figures(rows::AskedRow{}).columns;
     std::vector<Table::Column> measured = list_figures(rows::TrialMeasures{}).columns;
     asked.insert(asked.begin() + 1, measured.front());  // the attempt's number
@@ -71,13 +71,13 @@ std::vector<Column> columns_for(const rows::TrialFile& trials, const rows::LiftF
     for (const Table::Column& c : task::own_columns(task)) add(c, Column::Of::asked);
     for (const NumberColumn& c : columns_of_numbers(info))
         add(c, c.known_before ? Column::Of::asked : Column::Of::measured);
-    // events and measures of a trial: only the trial's own row has them
+    // only the trial's own row contains its events and measures
     for (Table::Column& c : measure_columns_of(task)) measured.push_back(std::move(c));
     measured.push_back(kPartnerColumn);
     for (const Table::Column& c : measured) add(c, Column::Of::measured);
     if (lifts == nullptr) return out;
     const std::vector<Table::Column> of_lifts = list_figures(rows::LiftRow{}).columns;
-    for (size_t i = 2; i < of_lifts.size(); ++i) {  // after the numbers of trial and attempt
+    for (size_t i = 2; i < of_lifts.size(); ++i) {  // after the columns of trial and attempt
         const auto from = lifts->column(of_lifts[i].name);
         if (!from) continue;
         const bool mark = i == 2;
@@ -109,7 +109,7 @@ Json sidecar(const std::vector<Column>& columns, const recording::SessionInfo& i
     Json levels, tags;
     for (const rows::EventKind& kind : rows::kEventKinds) {
         levels[kind.name] = std::string("value: ") + kind.value;
-        tags[kind.name] = fmt::format("({}, {{HED}})", kind.hed);  // with those of the row
+        tags[kind.name] = fmt::format("({}, {{HED}})", kind.hed);  // with the tags of the row
     }
     levels["trial"] = "an attempt at a trial, with its demands and measures; value: its outcome";
     Json json{
@@ -145,8 +145,8 @@ std::string hed_label(size_t number, const std::string& text) {
     return out;
 }
 
-/// The HED tags of a row, besides those that the sidecar gives its kind: its label, and the tags
-/// that the task's file gives the state, the outcome or the perturbations.
+/// The HED tags of a row, besides those that the sidecar gives to rows of its kind: its label, and
+/// the tags that the task's file gives the state, the outcome or the perturbations.
 class HedTags {
   public:
     explicit HedTags(const task::Task& task) : task_(task) {}
@@ -206,7 +206,7 @@ class HedTags {
     }
 
     const task::Task& task_;
-    std::string state_;  // that has begun
+    std::string state_;  // the last state that has begun
 };
 
 class EventRows {
@@ -235,7 +235,7 @@ class EventRows {
         const rows::TrialRow& of = trials_[attempt.row];
         Row row{number_text(of.head.start), fmt::format("{:.6g}", attempt.stop - attempt.start),
                 "trial", of.measures.outcome};
-        // without a task, lifts are counted in each trial
+        // without a task, lifts are numbered from 1 in each trial
         const auto lift = lift_of_.find({of.asked.trial, std::max(of.measures.attempt, 1)});
         for (const Column& c : columns_) {
             if (c.of != Column::Of::lift) {

@@ -55,7 +55,8 @@ Interval profile_interval(const std::function<double(double)>& profile, double b
     const auto end = [&](double bound) {
         if (bound == best || profile(bound) <= limit) return bound;
         double inside = best, outside = bound;
-        // to half a percent of the distance: more precision would be lost in the statistics
+        // to half a percent of the distance: more precision would be lost in the statistical
+        // uncertainty
         for (int i = 0; i < 40 && std::abs(outside - inside) > 0.005 * std::abs(inside - best);
              ++i) {
             const double middle = (inside + outside) / 2;

@@ -21,8 +21,8 @@ struct Minimum {
 
 using Cost = std::function<double(std::span<const double>)>;
 
-/// Minimises `cost` from a start inside the bounds, to about `tolerance` times their distances.
-/// `cost` must not throw.
+/// Minimises `cost` from a start inside the bounds, to about `tolerance` times the distance between
+/// them. `cost` must not throw.
 Minimum minimise(const Cost& cost, std::span<const Variable> variables, std::vector<double> start,
                  double tolerance = 1e-7);
 
@@ -35,9 +35,9 @@ struct Interval {
     double high = 0;
 };
 
-/// The point where a profile that is least at `best` and rises to both sides passes `limit`, to
-/// half a percent of the distance from `best`; the end of the range if the profile does not pass
-/// it.
+/// The points where a profile that is least at `best` and rises to both sides passes `limit`, to
+/// half a percent of their distance from `best`; an end of the range if the profile does not pass
+/// `limit` before it.
 Interval profile_interval(const std::function<double(double)>& profile, double best,
                           const Variable& range, double limit);
 

@@ -54,7 +54,7 @@ class Search {
 
     std::vector<LevelCount>& counts() { return counts_; }
 
-    /// The least of the minima found from the best point of a grid at each spread, since flat and
+    /// The lowest of the minima found from the best point of a grid at each spread, since flat and
     /// steep functions have separate minima.
     Minimum run() const {
         constexpr double kFine = 1e-7;
@@ -66,8 +66,8 @@ class Search {
     Minimum run_quickly() const {
         return least_of(few(starts(coarse_places_, spreads_, {lapses_.data(), 1})), free_);
     }
-    /// The points where the profile of one variable, with the others searched again, rises by half
-    /// of the 95 % point of chi-squared.
+    /// The points where the profile of one variable, with the others fitted again, rises by half of
+    /// the 95 % point of chi-squared.
     Interval interval(size_t variable, const std::vector<double>& best) const {
         if (!free_[variable]) return {best[variable], best[variable]};
         return profile_interval([&](double v) { return profile(variable, v); }, best[variable],
@@ -83,7 +83,7 @@ class Search {
         }
         return f;
     }
-    /// The variables of a function, inversely.
+    /// The variables for which function() gives this function.
     std::vector<double> variables(const Psychometric& f) const {
         return {linear_weibull() ? std::log10(f.threshold) : f.threshold,
                 std::log(slope() ? 1 / f.shape : f.shape), f.lapse};
@@ -124,7 +124,7 @@ class Search {
         return starts;
     }
 
-    /// Downhill from x in those variables that are free.
+    /// Descends from x in those variables that are free.
     Minimum descend(std::vector<double> x, const Free& free, double tolerance) const {
         std::vector<Variable> ranges;
         std::vector<double> start;
@@ -204,8 +204,9 @@ void check(std::span<const LevelCount> counts, const PsychometricFitSettings& se
             throw Error("the counts of answers at a level are invalid",
                         "give finite levels, each with at least one trial");
         if (!model::takes(settings.sigmoid, c.level))
-            throw Error("a Weibull function has no level of 0 or below",
-                        "fit another sigmoid, or weibull_log10 to logarithms");
+            throw Error(
+                "a Weibull function is not defined at a level of 0 or below",
+                "fit another sigmoid, or fit weibull_log10 to the logarithms of the levels");
     }
     if (std::all_of(counts.begin(), counts.end(),
                     [&](const auto& c) { return c.level == counts.front().level; }))
@@ -214,7 +215,7 @@ void check(std::span<const LevelCount> counts, const PsychometricFitSettings& se
     if (!(settings.max_lapse >= 0 && settings.max_lapse < 0.5 && settings.guess >= 0 &&
           settings.guess + settings.max_lapse < 1))
         throw Error("guess and lapse rates leave no range between them",
-                    "give a guess rate and a max_lapse in [0, 0.5), below 1 together");
+                    "give a max_lapse in [0, 0.5) and a guess rate of 0 or more, below 1 together");
     if (settings.shape && !(*settings.shape > 0))
         throw Error("a known shape must be above 0", "give the slope or spread of the sigmoid");
 }

@@ -43,10 +43,10 @@ struct PsychometricFit {
     model::Psychometric function;
     /// Sum over trials of -ln p(answer), without the binomial coefficients.
     double negative_log_likelihood = 0;
-    /// Twice the log likelihood lost to the model with each level's own share of "yes" [1]. If each
-    /// level has many trials, the deviance is approximately chi-squared distributed, and its
-    /// degrees of freedom are the number of levels minus the number of parameters; if not, see
-    /// `deviance_share()` below.
+    /// Twice the log likelihood that is lost relative to the model with each level's own share of
+    /// "yes" [1]. If each level has many trials, the deviance is approximately chi-squared
+    /// distributed, and its degrees of freedom are the number of levels minus the number of
+    /// parameters; if not, see `deviance_share()` below.
     double deviance = 0;
     /// Functions far steeper, or far flatter, than any that the levels could tell apart fit as
     /// well: the answers turn from all "no" to all "yes" between two levels, or have no trend. The
@@ -72,8 +72,8 @@ PsychometricIntervals profile_intervals(std::span<const LevelCount> counts,
                                         const PsychometricFitSettings& settings);
 
 /// Share of the resamples of a parametric bootstrap that fit no better than the data: below 0.05
-/// the model does not describe the data. In each resample, the fitted function answers as many
-/// trials at the same levels, and these answers are fitted.
+/// the model does not describe the data. In each resample, the fitted function answers the same
+/// number of trials at each level, and these answers are fitted.
 double deviance_share(std::span<const LevelCount> counts, const PsychometricFit& fit,
                       const PsychometricFitSettings& settings, int resamples, uint64_t seed);
 

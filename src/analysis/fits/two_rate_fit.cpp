@@ -211,15 +211,15 @@ std::vector<Vec4> lattice() {
 }
 
 // The search descends from the best points of the lattice and from the best point of each pair of
-// retentions: if many points are good, the least minimum may not be near any of the best.
+// retentions: if many points are good, the lowest minimum might not be near any of the best points.
 constexpr size_t kScouts = 48;
 constexpr int kScoutSteps = 12;   // steps of each scout
 constexpr size_t kPolished = 12;  // best scouts, which continue for kPolishingSteps
 constexpr int kPolishingSteps = 400;
 constexpr double kSamePlace = 1e-3;  // minima no further apart are the same
 
-/// Minima, the least first. Several are kept, because with a parameter held another may be the
-/// least.
+/// Minima, the lowest first. Several are kept, because another may be the lowest when a parameter
+/// is held.
 std::vector<Found> minima(const Data& data) {
     static const std::vector<Vec4> points = lattice();
     std::vector<Found> found;

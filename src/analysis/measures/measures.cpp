@@ -88,7 +88,7 @@ std::optional<MeasureFinder> MeasureFinder::of(const recording::SessionFolder& f
     return std::nullopt;
 }
 
-/// Takes what trial-list.csv does not have from a plan of the task.
+/// Takes what trial-list.csv does not contain from a plan of the task.
 void MeasureFinder::plan_with(const task::Task& task, const recording::SessionFolder& folder) {
     const bool in_channels = std::ranges::any_of(
         plans_, [](const task::MovementPlan& plan) { return plan.channel != 0; });
@@ -158,7 +158,7 @@ void MeasureFinder::end_attempt(const rows::LiftRow* lift) {
         if (std::isnan(own[k]))
             missing += (missing.empty() ? "" : "; ") + custom_measures_[k].name + ": " +
                        (custom_measures_[k].window
-                            ? fmt::format("its states did not last for its window of {:g} s",
+                            ? fmt::format("its states were shorter than its window of {:g} s",
                                           *custom_measures_[k].window)
                             : "not measured");
     }

@@ -22,9 +22,9 @@ constexpr double kGripLasts = 0.01;        // time for which grip must stay abov
 constexpr double kGripSpreads = 3;         // threshold in standard deviations
 constexpr double kLeastRise = 0.05;  // least threshold, because grip without noise has no SD [N]
 constexpr double kToMm2 = 1e6;
-constexpr double kLeastTime = 0.05;   // of a movement [s]
-constexpr double kLeastShare = 0.1;   // of the line that a movement covers
-constexpr double kIndexTime = 0.1;    // of a movement whose force is compared with a field's [s]
+constexpr double kLeastTime = 0.05;   // duration of a movement [s]
+constexpr double kLeastShare = 0.1;   // share of the line that a movement covers
+constexpr double kIndexTime = 0.1;    // duration of a movement whose force is compared [s]
 constexpr double kIndexShare = 0.5;   // of the line
 constexpr double kLeastIdeal = 0.05;  // root mean square of the ideal force [N]
 
@@ -119,8 +119,8 @@ std::string AttemptMeasures::find_movement(const MeasurePhases& phases) {
             continue;
         }
         if (!(speed[peak_] >= options_.onset_speed.value_or(kLeastPeak))) return "no movement";
-        if (before) return "it moved before its states began";
-        if (end_ == run_.size()) no_end_ = "not over when its states ended";
+        if (before) return "the movement began before its states";
+        if (end_ == run_.size()) no_end_ = "the movement was not over when its states ended";
         return small;
     }
 }
@@ -149,7 +149,8 @@ std::string AttemptMeasures::find_run(const MeasurePhases& phases) {
     run_ = {first, std::find_if_not(first, attempt_.samples.end(), moves)};
     if (run_.empty()) return "its states were not reached";
     for (const MotionSample& s : run_) {
-        if (!s.continues && &s != &run_.front()) return "ticks are missing, or it was paused";
+        if (!s.continues && &s != &run_.front())
+            return "ticks are missing, or the session was paused";
         speed_.push_back(in_channel() ? std::abs(s.v_W.dot(along_W_)) : s.v_W.norm());
     }
     return "";
@@ -167,24 +168,25 @@ double AttemptMeasures::extent(bool along) const {
 std::string AttemptMeasures::why_too_small() const {
     const double line = (attempt_.plan.to_W - attempt_.plan.from_W).norm();
     if (const double share = extent(false) / line; line > 0 && share < kLeastShare)
-        return fmt::format("it covered {:.0f} % of the way, less than {:.0f} %", 100 * share,
-                           100 * kLeastShare);
+        return fmt::format("the movement covered {:.0f} % of the way, less than {:.0f} %",
+                           100 * share, 100 * kLeastShare);
     const double lasted = static_cast<double>(end_ - onset_) * tick_;
     if (lasted < kLeastTime)
-        return fmt::format("it lasted {:.0f} ms, less than {:.0f}", 1e3 * lasted, 1e3 * kLeastTime);
+        return fmt::format("the movement lasted {:.0f} ms, less than {:.0f}", 1e3 * lasted,
+                           1e3 * kLeastTime);
     return "";
 }
 
 std::string AttemptMeasures::why_no_index() const {
     const double line = (attempt_.plan.to_W - attempt_.plan.from_W).norm();
     if (const double share = extent(true) / line; !(share >= kIndexShare))
-        return fmt::format("it covered {:.0f} % of the line, less than {:.0f} %", 100 * share,
-                           100 * kIndexShare);
+        return fmt::format("the movement covered {:.0f} % of the line, less than {:.0f} %",
+                           100 * share, 100 * kIndexShare);
     const Values ideals = while_in_channel(ideal_);
     // from the first of these ticks to the last
     const double lasted = (static_cast<double>(ideals.size()) - 1) * tick_;
     if (lasted < kIndexTime)
-        return fmt::format("it lasted {:.0f} ms{}, less than {:.0f}", 1e3 * lasted,
+        return fmt::format("the movement lasted {:.0f} ms{}, less than {:.0f}", 1e3 * lasted,
                            ideals.size() < whole(ideal_).size() ? " in the channel" : "",
                            1e3 * kIndexTime);
     double square = 0;
@@ -211,7 +213,7 @@ std::string AttemptMeasures::why_missing(const task::MeasureRow& row) const {
     if (row.needs & MeasureRow::movement) {
         const std::string& why = row.needs & MeasureRow::begun ? no_onset_ : no_end_;
         if (why.empty() && (row.needs & MeasureRow::channel) && while_in_channel(force_).empty())
-            return "no channel acted in its movement";
+            return "no channel acted during the movement";
         return why.empty() && (row.needs & MeasureRow::ideal) ? why_no_index() : why;
     }
     if (row.needs & MeasureRow::step) return std::isnan(step_) ? "no load step" : "";
@@ -236,7 +238,7 @@ MeasuredValues AttemptMeasures::measure(const task::MeasureRow& row) const {
     static const Rule kRules[] = {
         {"reaction_time",
          [](const A& a) { return Values{a.continued_ ? kUnmeasured : a.time(a.onset_) - a.go_}; },
-         "no go signal, or it had begun before its states"},
+         "no go signal, or the movement began before its states"},
         {"movement_time", [](const A& a) { return Values{a.time(a.end_) - a.time(a.onset_)}; },
          kNever},
         {"peak_speed", [](const A& a) { return Values{a.speed_[a.peak_]}; }, kNever},
@@ -245,12 +247,12 @@ MeasuredValues AttemptMeasures::measure(const task::MeasureRow& row) const {
         {"path_length", [](const A& a) { return Values{a.path_length()}; }, kNever},
         {"lateral_deviation", [](const A& a) { return a.lateral_deviation(); }, kAxis},
         {"early_lateral_deviation", [](const A& a) { return a.early_lateral_deviation(); },
-         "over too soon after onset"},
+         "the movement ended too soon after onset"},
         {"largest_lateral_deviation",
          [](const A& a) { return Values{largest_by_size(a.whole(a.left_))}; }, kAxis},
         {"end_point_error", [](const A& a) { return a.end_point_error(); }, kNever},
         {"initial_direction", [](const A& a) { return a.initial_direction(); },
-         "over too soon after onset"},
+         "the movement ended too soon after onset"},
         {"spectral_arc_length",
          [](const A& a) { return Values{spectral_arc_length(a.whole(a.speed_), a.tick_)}; },
          kNever},
@@ -266,7 +268,7 @@ MeasuredValues AttemptMeasures::measure(const task::MeasureRow& row) const {
         {"grip_load_r", [](const A& a) { return Values{a.lift().grip_load_r}; }, nullptr},
         {"grip_load_lag", [](const A& a) { return Values{a.lift().grip_load_lag}; }, nullptr},
         {"safety_margin", [](const A& a) { return Values{a.lift().safety_margin}; }, nullptr},
-        {"grip_latency", [](const A& a) { return a.grip_latency(); }, "grip did not answer"}};
+        {"grip_latency", [](const A& a) { return a.grip_latency(); }, "grip did not respond"}};
     static_assert(std::size(kRules) == std::size(task::kMeasureTable));
 
     MeasuredValues out{Values(columns_in(row), kUnmeasured), why_missing(row)};
@@ -366,7 +368,7 @@ Values AttemptMeasures::grip_latency() const {
 
 Stroke first_stroke(std::span<const double> speed) {
     constexpr double kLeast = 0.25;  // of the largest speed
-    constexpr double kFall = 0.2;    // of the stroke's own
+    constexpr double kFall = 0.2;    // of the stroke's own peak
     constexpr double kRise = 0.1;    // of the largest speed
     const double most = speed.empty() ? 0 : *std::max_element(speed.begin(), speed.end());
     Stroke out;
@@ -409,7 +411,7 @@ double spectral_arc_length(std::span<const double> speed, double tick) {
     if (speed.size() < 2) return kUnmeasured;
     const auto powers =
         static_cast<int>(std::ceil(std::log2(static_cast<double>(speed.size())))) + kPadding;
-    const double step = 1 / (tick * std::ldexp(1.0, powers));  // between frequencies [Hz]
+    const double step = 1 / (tick * std::ldexp(1.0, powers));  // distance between frequencies [Hz]
     // a speed is never negative, so its largest amplitude is at frequency 0
     const double most = std::accumulate(speed.begin(), speed.end(), 0.0);
     if (!(most > 0)) return kUnmeasured;

@@ -67,7 +67,8 @@ class AttemptMeasures {
     }
     /// The values in the ticks from onset to end in which the channel acts.
     Values while_in_channel(const Values& of_run) const;
-    /// Largest distance from its place at onset that the movement reached; `along`: along the line.
+    /// Largest distance that the movement reached from its position at onset; `along`: along the
+    /// line.
     double extent(bool along) const;
     void find_lines();
     std::string why_missing(const task::MeasureRow& row) const;
@@ -99,14 +100,14 @@ class AttemptMeasures {
     bool continued_ = false;  // the movement had begun before its states
     size_t onset_ = 0, peak_ = 0, end_ = 0;
     Vec3 along_W_, left_W_;
-    /// In the run. In a channel, the speed by which the movement is found is that along the line:
-    /// walls that catch the hand off their line throw it onto the line.
+    /// By tick of the run. In a channel, the movement is found by the speed along the line, because
+    /// walls that catch the hand beside their line throw it onto the line.
     std::vector<double> speed_, left_, force_, ideal_;
 };
 
 /// The first stroke of a movement: its fastest tick, and the tick before the next stroke begins.
 /// A stroke ends where the speed has fallen by a fifth and rises again by a tenth of the largest
-/// speed; one with less than a quarter of that speed is not yet a stroke.
+/// speed; a rise to less than a quarter of that speed is not yet a stroke.
 struct Stroke {
     size_t peak = 0;
     size_t end = 0;
@@ -114,7 +115,7 @@ struct Stroke {
 Stroke first_stroke(std::span<const double> speed);
 
 /// Where x first turns back, after a change from its first value and before a return that are both
-/// at least a tenth of its range, and 2 mm; otherwise where it is largest in magnitude [m].
+/// at least a tenth of its range and at least 2 mm; otherwise where it is largest in magnitude [m].
 size_t first_turn(std::span<const double> x);
 
 /// Spectral arc length of a speed profile (Balasubramanian et al. 2015): over frequencies up to 10

@@ -64,18 +64,18 @@ void add_person(PopulationTables& out, const std::string& title, const SessionDa
     row("round", curve.round, "", "name");
     curve.list_landmarks(row);
     list_fits(row, fits, false);
-    row("note", note, "", "unmeasured quantity");
+    row("note", note, "", "what is not measured");
     row("session", session.folder.path(), "", "folder");
     add_row(out.people, row);
 }
 
 /// Lists statistics over people.
 void list(FigureLister& row, const Sample& people) {
-    row("people", people.count, "1", "number");
-    row("mean", people.mean, "1", "over people");
-    row("sd", people.sd, "1", "over people");
-    row("mean_low", people.mean_interval.low, "1", "its 95 % interval");
-    row("mean_high", people.mean_interval.high, "1", "its upper end");
+    row("people", people.count, "1", "number of people");
+    row("mean", people.mean, "1", "mean over people");
+    row("sd", people.sd, "1", "standard deviation over people");
+    row("mean_low", people.mean_interval.low, "1", "lower end of the mean's 95 % interval");
+    row("mean_high", people.mean_interval.high, "1", "upper end of that interval");
 }
 
 /// Adds the mean over people, trial by trial. Catch trials, whose positions differ between people,
@@ -146,9 +146,10 @@ void add_thresholds(PopulationTables& out, const std::string& title, const Sessi
             row("procedure", track.procedure, "", "name");
             row("perturbation", track.perturbation, "", "name");
             row("chooses", track.what(), "", "quantity of the levels");
-            row("trials", track.answers.size(), "1", "answers");
+            row("trials", track.answers.size(), "1", "number of answers");
             row("threshold_share", track.share(f.threshold), "1",
-                "share of the perturbation; or the number, in the unit of its name");
+                "share of the perturbation; or the chosen number, in the unit that its name "
+                "states");
             list_psychophysics(track, f, row);
             row("shape", f.shape, "1", "shape of the sigmoid");
             row("lapse", f.lapse, "1", "share of answers that do not depend on the level");
@@ -176,7 +177,7 @@ std::vector<double> values_of(const Lifts& lifts, Member rows::LiftRow::*figure)
 }
 
 void add_lifts(PopulationTables& out, const std::string& title, const Sessions& sessions) {
-    // first each session's median, because people differ more than lifts
+    // each session's median is taken first, because people differ more than lifts
     std::vector<std::string> groups;
     std::map<std::string, std::map<std::string, ByPerson>> medians;
     for (const FittedSession* session : sessions) {
@@ -200,7 +201,7 @@ void add_lifts(PopulationTables& out, const std::string& title, const Sessions& 
             FigureLister row;
             row("experiment", title, "", "title");
             row("trials", group, "", "round, block, kind, condition");
-            row("figure", figure, "", "column of lifts.csv; each person's median counts");
+            row("figure", figure, "", "column of lifts.csv, of which each person's median is used");
             list(row, all);
             add_row(out.lifts, row);
         }
@@ -252,25 +253,29 @@ void list_measures(PopulationTables& out, const std::string& title, const Sessio
             }
         }
         for (const auto& [key, of_people] : values) {
-            if (c >= measures && empty[key] == trials_of[key]) continue;  // not asked for there
+            if (c >= measures && empty[key] == trials_of[key])
+                continue;  // not asked for in these trials
             FigureLister row;
             row("experiment", title, "", "title");
             row("group", key[0], "", "group of the study; empty: none");
             row("study_session", key[1], "", "session of the study; empty: none");
-            row("measure", column.name, "", "column of trials.csv; each person's mean counts");
+            row("measure", column.name, "",
+                "column of trials.csv, of which each person's mean is used");
             row("unit", column.unit, "", "its unit");
             row("round", key[2], "", "name");
             row("block", key[3], "", "name");
             row("condition", key[4], "", "name");
             row("kind", key[5], "", "kind of the trials");
             row("perturbation", key[6], "", "name, or names joined by ' + '; empty: none");
-            row("trials", trials_of[key], "1", "number over all people, the last attempt at each");
-            row("left_out", empty[key], "1", "trials without the measure: not_measured says why");
+            row("trials", trials_of[key], "1",
+                "number over all people; only the last attempt at each trial");
+            row("left_out", empty[key], "1",
+                "trials without the measure; not_measured gives the reason");
             const Sample all = of_people.over_people();
             list(row, all);
-            row("median", all.median, "", "over people");
-            row("lower_quartile", all.quartiles.low, "", "over people");
-            row("upper_quartile", all.quartiles.high, "", "over people");
+            row("median", all.median, "", "median over people");
+            row("lower_quartile", all.quartiles.low, "", "lower quartile over people");
+            row("upper_quartile", all.quartiles.high, "", "upper quartile over people");
             add_row(out.measures, row);
         }
     }
@@ -314,7 +319,8 @@ PopulationTables population_tables(const std::vector<Sessions>& samples) {
     for (Table* table : tables_of(out)) {
         table->columns.insert(table->columns.end(), recording::kMovedByColumns.begin(),
                               recording::kMovedByColumns.end());
-        table->columns.push_back({"population", "of simulated people, with their group"});
+        table->columns.push_back(
+            {"population", "population of the simulated people, with their group"});
     }
     return out;
 }

@@ -10,7 +10,7 @@ namespace dihaptic::analysis {
 using Sessions = std::vector<const FittedSession*>;
 
 /// The sessions by experiment and by who moved the hands: simulated and real people, or two
-/// populations, never count as one sample.
+/// populations, never form one sample.
 std::vector<Sessions> samples_of(const std::vector<FittedSession>& sessions);
 
 struct PopulationTables {

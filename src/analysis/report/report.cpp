@@ -128,7 +128,7 @@ std::vector<SessionData> read_sessions(ReportResult& result, const std::string& 
     return out;
 }
 
-/// Leaves out sessions that do not count: copies, parts of others, and those cut short.
+/// Leaves out copies of sessions, sessions that are parts of others, and those cut short.
 void leave_out(ReportResult& result, std::vector<SessionData>& sessions,
                const CountsInStudy& counts) {
     // a session that is resumed by another one is part of it
@@ -240,7 +240,7 @@ void ReportResult::add(const ReportResult& other) {
 
 ReportResult write_tables(const std::string& path, const std::function<void(double)>& progress,
                           const CountsInStudy& counts) {
-    std::error_code unreadable;  // report_session() then reports that it is not a session
+    std::error_code unreadable;  // report_session() then reports that the path is not a session
     const bool is_folder = fs::is_directory(path, unreadable);
     if (!is_folder || is_there(path + "/session.yaml") || is_there(path + "/raw.log"))
         return report_session(path, progress);

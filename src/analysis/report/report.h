@@ -25,9 +25,9 @@ struct ReportSample {
 };
 
 struct ReportResult {
-    std::vector<std::string> paths;   ///< folders of sessions, or with sessions in them
+    std::vector<std::string> paths;   ///< folders of sessions, or folders that contain them
     std::string out;                  ///< folder for the page of several paths
-    std::vector<std::string> tables;  ///< tables written; of a folder, those over people
+    std::vector<std::string> tables;  ///< tables written; for a folder, those over people
     int sessions = 0;
     std::vector<std::string> left_out;  ///< sessions left out, each with the reason
     std::vector<Problem> changed;       ///< changes in sessions since they ended
@@ -46,8 +46,8 @@ using CountsInStudy = std::function<bool(const std::string&, const recording::In
 
 /// For one session, writes adaptation.csv, fits.csv, adaptation-blocks.csv, generalisation.csv and
 /// thresholds.csv into its folder, as far as there is something to write; reads its raw.log to the
-/// end, and says what is wrong with it. For a folder with sessions in it, at any depth, writes
-/// these tables of each session that counts, and population-people.csv, population-adaptation.csv,
+/// end, and reports its faults. For a folder with sessions in it, at any depth, writes these tables
+/// of each session that is not left out, and population-people.csv, population-adaptation.csv,
 /// population-lifts.csv, population-thresholds.csv and population-measures.csv into the folder.
 /// Throws Error when there is no session. `counts`: of sessions in a folder that ended early, those
 /// that are counted all the same; empty: none.

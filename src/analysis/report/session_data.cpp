@@ -26,7 +26,8 @@ std::vector<Problem> changed_of(const recording::SessionFolder& folder,
     return out;
 }
 
-/// Throws Error when the table cannot be read, with the known facts about its original state.
+/// Throws Error when the table cannot be read; the message contains what is known about its
+/// original state.
 rows::TrialFile trials_of(const recording::SessionFolder& folder,
                           const std::vector<Problem>& changed) {
     try {
@@ -38,7 +39,7 @@ rows::TrialFile trials_of(const recording::SessionFolder& folder,
     }
 }
 
-/// Takes them from the task, since the recorded procedures do not have them.
+/// Takes the numbers of skipped reversals from the task, since the recorded procedures lack them.
 void note_skipped_reversals(std::vector<ThresholdTrack>& tracks, const task::Task& task) {
     for (ThresholdTrack& track : tracks) {
         for (const task::ProcedureSpec& spec : task.procedures) {
@@ -80,8 +81,8 @@ bool holds_cursor(const task::Task& task, const std::string& state) {
 void note_hidden_cursor(SessionData& data) {
     if (!data.task.reach || !is_there(data.folder.file("phases.csv"))) return;
     const auto& during = data.task.reach->during;
-    std::map<int, std::string> state;     // in which a trial's last reach was made
-    std::map<int, std::string> feedback;  // after it, with its end
+    std::map<int, std::string> state;     // state in which a trial's last reach was made
+    std::map<int, std::string> feedback;  // later state that shows its end
     for (const rows::PhaseRow& phase : rows::PhaseFile(data.folder.file("phases.csv"))) {
         const auto& names = static_cast<const Texts&>(during);
         if (std::ranges::find(names, phase.name) != names.end()) {
@@ -120,7 +121,7 @@ void find_curves(SessionData& data) {
     const bool in_errors = !errors.empty() && data.trials.column(errors);
     if (in_errors) {
         data.curves = error_curves(data.trials, errors);
-        data.unmeasured.clear();  // the curves state what is not visible
+        data.unmeasured.clear();  // the curves' notes state what is not visible
     }
     if (!in_channels && !in_errors) note_hidden_cursor(data);
     // the effect of a channel or a field on the hand does not show the learning

@@ -23,7 +23,7 @@ struct SessionData {
     std::vector<AdaptationCurve> curves;
     std::vector<ThresholdTrack> tracks;
     std::vector<Generalisation> generalisation;
-    std::vector<Problem> changed = {};  ///< changes in its files since it ended: warnings
+    std::vector<Problem> changed = {};  ///< warnings of changes in its files since it ended
     Unmeasured unmeasured = {};  ///< perturbations in the trials whose learning has no measure
 
     /// The perturbations in `unmeasured`, e.g. "sideways is a mass that differs by direction";
@@ -36,8 +36,8 @@ struct SessionData {
     /// over people.
     bool is_cut_short() const;
 
-    /// Whether a simulated person did a participant's session of a study, in the participant's
-    /// folder (`run --simulate`); such a session does not belong to the study.
+    /// Whether a simulated person stood in for a study's participant, in the participant's folder
+    /// (`run --simulate`); such a session does not belong to the study.
     bool stands_in() const;
 
     std::string participant() const {

@@ -17,15 +17,15 @@ void add_curve(Table& table, const AdaptationCurve& curve,
         row("round", curve.round, "", "name");
         row("trial_num", trial.number, "1", "number in the session, from 1");
         row("block", trial.block, "", "name");
-        row("kind", trial.kind, "", "of the trial");
+        row("kind", trial.kind, "", "kind of the trial");
         row("unit", curve.unit, "", "unit of the values below");
-        row("perturbation", trial.perturbation, "1", "0 if no error was seen");
+        row("perturbation", trial.perturbation, "1", "perturbation; 0 if no error was seen");
         row("error_seen", std::string(trial.clamp ? "no" : "yes"), "",
-            "no in clamps, in reaches that fell short, in those of which neither the way nor the "
-            "end was shown, and if unknown");
+            "'no' in clamps, in reaches that fell short, in reaches of which neither the path nor "
+            "the end was shown, and if unknown");
         row("compensation", trial.compensation, "1", "compensation of the hand");
-        row("two_rate", two_rate, "1", "fitted");
-        row("single_rate", single_rate, "1", "fitted");
+        row("two_rate", two_rate, "1", "compensation by the fitted two-rate model");
+        row("single_rate", single_rate, "1", "compensation by the fitted single-rate model");
         add_row(table, row);
     }
 }
@@ -37,7 +37,7 @@ void add_fits(Table& table, const AdaptationCurve& curve,
     row("round", curve.round, "", "name");
     curve.list_landmarks(row);
     list_fits(row, fits, true);
-    row("note", curve.note().empty() ? curve.mixed() : curve.note(), "", "unmeasured quantity");
+    row("note", curve.note().empty() ? curve.mixed() : curve.note(), "", "what is not measured");
     add_row(table, row);
 }
 
@@ -57,16 +57,18 @@ FigureLister threshold_row(const SessionData& session, const ThresholdTrack& tra
     row("kind", track.kind, "", "staircase, quest, quest_plus or constant");
     row("perturbation", track.perturbation, "", "name");
     row("chooses", track.what(), "", "quantity of the levels");
-    row("trials", track.answers.size(), "1", "answers");
-    row("threshold", f.threshold, "1", "level");
+    row("trials", track.answers.size(), "1", "number of answers");
+    row("threshold", f.threshold, "1", "level of the threshold");
     row("threshold_95", threshold_95, "", "its interval, from the profile likelihood");
     row("threshold_share", track.share(f.threshold), "1",
-        "share of the perturbation; or the number, in the unit of its name");
+        "share of the perturbation; or the chosen number, in the unit that its name states");
     list_psychophysics(track, f, row);
     row("shape", f.shape, "1", "shape of the sigmoid");
     row("shape_95", shape_95, "", "its interval, from the profile likelihood");
     row("lapse", f.lapse, "1", "share of answers that do not depend on the level");
-    row("deviance_share", deviance, "1", "below 0.05: the function does not fit");
+    row("deviance_share", deviance, "1",
+        "share of resamples that fit no better than the data; below 0.05: the function does not "
+        "fit");
     row("note", threshold.note, "", "reason for a missing fit, or a remark");
     return row;
 }

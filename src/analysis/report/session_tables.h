@@ -18,7 +18,7 @@ struct FittedSession {
     std::vector<ThresholdFit> thresholds;                   ///< of each of its tracks
 };
 
-/// Without the columns that say who moved the hand (recording::marked()).
+/// The tables, without the columns that state who moved the hand (recording::marked()).
 struct SessionTables {
     Table adaptation{};      ///< a row per reach; empty without reaches
     Table fits{};            ///< a row per round

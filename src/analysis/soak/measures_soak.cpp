@@ -1,4 +1,4 @@
-// The measures of ten thousand spoilt reaches.
+// Tests the measures of ten thousand spoilt reaches.
 #include "analysis/test/reaches.h"
 
 namespace dihaptic::analysis::measures_test {

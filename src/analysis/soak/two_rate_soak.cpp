@@ -1,5 +1,5 @@
 // Fits five hundred synthetic people with parameters from a wide range: no fit may have a larger
-// squared error than the true parameters, and none of a hundred starts may lead lower.
+// squared error than the true parameters, and none of a hundred starts may lead to a smaller one.
 #include <gtest/gtest.h>
 
 #include "analysis/fits/test/wide_people.h"

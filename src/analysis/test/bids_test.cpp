@@ -151,7 +151,8 @@ TEST(Bids, AnotherWithTheSameLabelIsNotAdded) {
         export_bids(other, set, {});
         FAIL();
     } catch (const Error& e) {
-        EXPECT_NE(std::string(e.what()).find("is participant S 07 there, but S07 here"),
+        EXPECT_NE(std::string(e.what()).find(
+                      "is participant S 07 in the data set, but S07 in this session"),
                   std::string::npos)
             << e.what();
     }

@@ -79,15 +79,16 @@ TEST(Corrections, SayWhyThereIsNone) {
     const auto of = [&](const Planted& trials, const Planted& against) {
         return find_correction(trials.all(), against.all(), kTick);
     };
-    EXPECT_EQ(of(Planted(2, 0.15, 0.02, 1), matched).why, "it takes 3 trials of each kind");
+    EXPECT_EQ(of(Planted(2, 0.15, 0.02, 1), matched).why,
+              "at least 3 trials of each kind are needed");
     EXPECT_EQ(of(Planted(20, 0, 0, 3), matched).why,
               "the means never differ by 3 standard errors for 20 ms");
     EXPECT_TRUE(std::isnan(of(Planted(20, 0, 0, 3), matched).latency));
     EXPECT_EQ(of(Planted(20, -0.1, 0.05, 3), matched).why,
-              "the hand parts from the matched trials as the state begins, or before");
+              "the hand departs from the matched trials when the state begins, or earlier");
     const rows::CorrectionRow shorter = of(jumped, Planted(20, 0, 0, 2, 200));
     EXPECT_EQ(shorter.left_out, 20);
-    EXPECT_EQ(shorter.why, "it takes 3 trials of each kind");
+    EXPECT_EQ(shorter.why, "at least 3 trials of each kind are needed");
     const rows::CorrectionRow exact = of(matched, matched);
     EXPECT_TRUE(std::isnan(exact.velocity));
     EXPECT_EQ(exact.why, "the means never differ by 3 standard errors for 20 ms");
@@ -98,7 +99,7 @@ TEST(Corrections, AreComparedAsFarAsMostTrialsLast) {
     const Planted matched(20, 0, 0, 2);
     const rows::CorrectionRow whole = find_correction(jumped.all(), matched.all(), kTick);
     EXPECT_NEAR(whole.compared, 0.8, 1e-9);
-    jumped.trials[3].resize(320);  // one trial that ended soon
+    jumped.trials[3].resize(320);  // one trial that ended early
     const rows::CorrectionRow row = find_correction(jumped.all(), matched.all(), kTick);
     EXPECT_EQ(row.left_out, 1);
     EXPECT_NEAR(row.compared, 0.8, 1e-9);

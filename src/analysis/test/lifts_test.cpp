@@ -50,7 +50,7 @@ struct Plan {
     double unknown = 0;     // until then ticks are missing, and the object's place is unknown [s]
     bool stands = false;    // contacts with the support are seen
     bool falls = false;
-    bool slides_out = false;  // sinks while the digits stay up
+    bool slides_out = false;  // the object sinks while the digits stay up
 };
 
 constexpr int kSamples = 4500;
@@ -128,7 +128,7 @@ TEST(Lifts, EventsAndForcesAreThoseOfTheSignals) {
     const Plan plan;
     const rows::LiftRow lift = lift_of(plan);
     EXPECT_EQ(lift.mark, "complete");
-    // rates are smoothed over 62 ms, so that an onset is seen up to half of that early
+    // rates are smoothed over 62 ms, so that an onset is found early, by up to half of that time
     EXPECT_NEAR(lift.touch, plan.touch, 0.032);
     EXPECT_NEAR(lift.load_onset, plan.onset, 0.032);
     EXPECT_NEAR(lift.preload, 0.1, 0.032);
@@ -266,7 +266,7 @@ TEST(Lifts, WithNothingAfterThemAreNoMore) {
 TEST(Lifts, ASlowOneLeavesItsSupportBeforeItIsFast) {
     Plan plan;
     plan.height = 0.012;
-    plan.rise = 1.9;  // 1 cm/s at the most
+    plan.rise = 1.9;  // 1 cm/s at most
     plan.lift_off = 0.9;
     plan.stands = true;
     EXPECT_NEAR(lift_of(plan).lift_off, plan.lift_off, 0.01);
@@ -295,7 +295,7 @@ TEST(Lifts, ASlipIsCountedAndItsTimeIsTold) {
     Plan plan;
     plan.slides_at = 1.5;
     const rows::LiftRow lift = lift_of(plan);
-    EXPECT_EQ(lift.slips, 2);  // of both digits
+    EXPECT_EQ(lift.slips, 2);  // one slip of each digit
     EXPECT_NEAR(lift.slip, 1e-3, 1e-4);
     EXPECT_NEAR(lift.first_slip, 1.5, 0.002);
     EXPECT_TRUE(lift.complete());

@@ -1,4 +1,4 @@
-// Tests the measures of behaviour against closed forms, and their page against their table.
+// Tests the measures of behaviour against closed forms, and their page in docs against their table.
 #include "analysis/measures/measures.h"
 
 #include <fmt/format.h>
@@ -72,19 +72,19 @@ TEST(Measures, OfForceInAChannelAreTheSharesThatThePersonPressesWith) {
     EXPECT_NEAR(reach.value("channel_force"), -0.6 * 15 * 0.375 + 0.2, 1e-9);
     EXPECT_NEAR(reach.value("channel_force", 2),
                 -0.6 * 15 * reach.value("path_length") + 0.2 * reach.value("movement_time"), 1e-4);
-    reach.attempt.share = 0;  // it did not act
+    reach.attempt.share = 0;  // the perturbation did not act
     EXPECT_EQ(reach.take("adaptation_index").why, "no channel");
 }
 
 TEST(Measures, AMovementGoesOnAfterAPauseThatIsShorterThanItsEnd) {
-    Reach reach;  // and another stroke, from 0.2 s after the end of the first on
+    Reach reach;  // another stroke follows 0.2 s after the end of the first
     for (size_t i = 2000; i < 2100; ++i) reach.attempt.samples[i].v_W = {0.06, 0, 0};
     const double first = reach.value("movement_time");
     EXPECT_LT(first, 0.5);
     reach.options.end_still = 0.15;
     EXPECT_EQ(reach.value("movement_time"), first);
-    reach.options.end_still = 0.3;  // the states end 0.1 s after it
-    EXPECT_EQ(reach.take("movement_time").why, "not over when its states ended");
+    reach.options.end_still = 0.3;  // the states end 0.1 s after this stroke
+    EXPECT_EQ(reach.take("movement_time").why, "the movement was not over when its states ended");
     reach.attempt.samples.resize(2100);
     for (int i = 2100; i < 2500; ++i) {
         reach.attempt.samples.push_back(reach.attempt.samples[1100]);
@@ -99,7 +99,7 @@ TEST(Measures, SayWhyTheyAreMissing) {
     EXPECT_EQ(slow.take("reaction_time").why, "no movement");
     EXPECT_TRUE(std::isnan(slow.value("path_length")));
     const Reach cut(0, 0.55);  // its states end at the peak
-    EXPECT_EQ(cut.take("movement_time").why, "not over when its states ended");
+    EXPECT_EQ(cut.take("movement_time").why, "the movement was not over when its states ended");
     EXPECT_NEAR(cut.value("reaction_time"), 0.3 + rise(), kTick);
     EXPECT_EQ(cut.take("initial_direction").why, "");
     Reach resting;
@@ -110,10 +110,10 @@ TEST(Measures, SayWhyTheyAreMissing) {
     EXPECT_EQ(early.take("peak_speed").why, "its states were not reached");
     Reach moving;
     for (MotionSample& s : moving.attempt.samples) s.phase = s.time < 1.5 ? 1 : 2;
-    EXPECT_EQ(moving.take("peak_speed").why, "it moved before its states began");
+    EXPECT_EQ(moving.take("peak_speed").why, "the movement began before its states");
     Reach gap;
     gap.attempt.samples[1500].continues = false;
-    EXPECT_EQ(gap.take("peak_speed").why, "ticks are missing, or it was paused");
+    EXPECT_EQ(gap.take("peak_speed").why, "ticks are missing, or the session was paused");
     EXPECT_EQ(gap.take("grip_onset").why, "no lift");
     rows::LiftRow lift;
     lift.mark = "not lifted";
@@ -139,24 +139,23 @@ TEST(Measures, LateralDeviationIsThatOfTheFirstStrokeWhateverTheSwingBack) {
     EXPECT_NEAR(reach.value("largest_lateral_deviation"), 0.05, 1e-5);
     EXPECT_NEAR(reach.value("early_lateral_deviation"),
                 -0.02 * std::sin(2 * std::numbers::pi * (rise() + 0.15) / 0.5), 3e-4);
-    // shaking by less than 2 mm before it is not a turn
+    // shaking by less than 2 mm beforehand is not a turn
     Reach shaking = pushed_aside(0.02, 0.02);
     for (MotionSample& s : shaking.attempt.samples) s.p_W.y() -= 9e-4 * std::sin(300 * s.time);
     EXPECT_NEAR(shaking.value("lateral_deviation"), 0.02, 1.1e-3);
 }
 
 TEST(Measures, PeakSpeedIsThatOfTheFirstStrokeThoughACorrectionIsFaster) {
-    Reach reach;  // and a correction at 0.6 m/s, 0.2 s later
+    Reach reach;  // a correction at 0.6 m/s follows 0.2 s later
     for (size_t i = 2000; i < 2100; ++i) reach.attempt.samples[i].v_W = {0.6, 0, 0};
     EXPECT_NEAR(reach.value("peak_speed"), 0.375, 1e-12);
     EXPECT_NEAR(reach.value("reaction_time"), 0.3 + rise(), kTick);
-    // and that of the reach even if the hand twitches by 2 mm before it
+    // peak speed is still that of the reach if the hand twitches by 2 mm beforehand
     Reach twitching;
     for (size_t i = 1100; i < 1120; ++i) twitching.attempt.samples[i].v_W = {0.2, 0, 0};
     EXPECT_NEAR(twitching.value("peak_speed"), 0.375, 1e-12);
     EXPECT_NEAR(twitching.value("reaction_time"), 0.3 + rise(), kTick);
-    // and that of the reach even if the hand is still returning from the last one as its state
-    // begins
+    // nor does it change if the hand is still returning from the last reach when the state begins
     Reach coming;
     for (size_t i = 1000; i < 1100; ++i)
         coming.attempt.samples[i].v_W = {-0.3 * (1 - (static_cast<double>(i) - 1000) / 100), 0, 0};
@@ -178,7 +177,8 @@ TEST(Measures, AreLeftOutWhereTheyWouldBeNonsense) {
     Reach half;
     half.attempt.plan.channel = 1;
     half.attempt.plan.to_W = {0.25, 0, 0};
-    EXPECT_EQ(half.take("adaptation_index").why, "it covered 39 % of the line, less than 50 %");
+    EXPECT_EQ(half.take("adaptation_index").why,
+              "the movement covered 39 % of the line, less than 50 %");
     EXPECT_TRUE(std::isnan(half.value("adaptation_index")));
     EXPECT_EQ(half.take("channel_force").why, "");
     Reach weak;
@@ -194,7 +194,8 @@ TEST(Measures, AreLeftOutWhereTheyWouldBeNonsense) {
     EXPECT_EQ(of.why, "adaptation_index would be 4, outside -3 to 3");
     Reach still;
     still.attempt.plan.to_W = {2, 0, 0};
-    EXPECT_EQ(still.take("reaction_time").why, "it covered 5 % of the way, less than 10 %");
+    EXPECT_EQ(still.take("reaction_time").why,
+              "the movement covered 5 % of the way, less than 10 %");
 }
 
 TEST(Measures, OfAThousandSpoiltReachesMakeSenseOrSayWhyTheyAreMissing) {
@@ -204,21 +205,22 @@ TEST(Measures, OfAThousandSpoiltReachesMakeSenseOrSayWhyTheyAreMissing) {
 TEST(Measures, GripLatencyIsFromTheStepToTheAnswer) {
     Reach held;
     held.phases.step = 2;
-    EXPECT_EQ(held.take("grip_latency").why, "grip did not answer");
+    EXPECT_EQ(held.take("grip_latency").why, "grip did not respond");
     for (size_t i = 0; i < held.attempt.samples.size(); ++i) {
         MotionSample& s = held.attempt.samples[i];
         if (i < 1000) s.grip += i % 2 == 0 ? 0.01 : -0.01;
-        if (i >= 1030 && i < 1035) s.grip = 3;  // too short for an answer
+        if (i >= 1030 && i < 1035) s.grip = 3;  // too short for a response
         if (i >= 1080) s.grip = 2.005 + 0.01 * static_cast<double>(i - 1080);
     }
     // 0.05 N above the mean after five ticks
     EXPECT_NEAR(held.value("grip_latency"), 0.085, kTick / 2);
     for (size_t i = 1085; i < held.attempt.samples.size(); ++i) held.attempt.samples[i].phase = 3;
-    EXPECT_EQ(held.take("grip_latency").why, "grip did not answer");  // what grips now is the next
+    EXPECT_EQ(held.take("grip_latency").why, "grip did not respond");  // the next state grips
 }
 
 TEST(Measures, SpectralArcLengthIsThatOfItsAuthors) {
-    // by their Python code (siva82kb/SPARC): a bell, and two of them, of one second each
+    // values from the authors' Python code (siva82kb/SPARC), for one bell and for two, of one
+    // second each
     std::vector<double> bell, two;
     for (int i = 0; i < 1000; ++i) {
         const double t = i * kTick;

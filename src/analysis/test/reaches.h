@@ -22,7 +22,7 @@ struct Reach {
     Attempt attempt;
     task::Movement options;
     MeasurePhases phases{{2}, 2, -1};
-    double bow = 0;  ///< lateral, as a share of the way [m]
+    double bow = 0;  ///< lateral displacement at the end [m], in proportion to the way before
 
     explicit Reach(double lateral = 0, double last = 1.2) : bow(lateral) {
         attempt.plan.to_W = {0.1, 0, 0};
@@ -80,8 +80,8 @@ inline Reach spoilt(std::mt19937& random) {
     return reach;
 }
 
-/// Every measure of `count` spoilt reaches is within its plausible range, or has a reason why it is
-/// missing.
+/// Expects that every measure of `count` spoilt reaches is within its plausible range, or has a
+/// reason why it is missing.
 inline void expect_sense_of_spoilt(int count) {
     std::mt19937 random(1);
     int measured = 0;

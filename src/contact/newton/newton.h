@@ -21,12 +21,12 @@ namespace dihaptic::contact {
 /// How an iterative solve ended.
 struct Outcome {
     int iterations = 0;
-    double residual = std::numeric_limits<double>::infinity();  ///< in the tolerance's measure
+    double residual = std::numeric_limits<double>::infinity();  ///< as compared with the tolerance
     bool converged = false;
 };
 
-/// Natural map of a law, relative, in two measures: in the units of the given problem, and in
-/// those of the scaled system, which are independent of the choice of units.
+/// Relative residual of a law (its natural map), in two measures: in the units of the given
+/// problem, and in those of the scaled system, which are independent of the choice of units.
 struct Residual {
     double scaled = std::numeric_limits<double>::infinity();  ///< over |q^|
     double given = std::numeric_limits<double>::infinity();   ///< over 1 + |q|
@@ -76,10 +76,11 @@ Load load(const System& system) noexcept {
     return {std::sqrt(out.scaled), std::sqrt(out.given)};
 }
 
-/// Iterations aim this far below the tolerance, so that an answer at its edge is rare.
+/// Iterations aim for this fraction of the tolerance, so that answers which only just meet it are
+/// rare.
 constexpr double kTarget = 1e-2;
-/// Once within tolerance, iterations end when this many of them have not reduced the best residual
-/// below this fraction: rounding then prevents further progress.
+/// Once within tolerance, iterations end when kStalledIterations of them have failed to reduce the
+/// best residual to the fraction kStalledShare: rounding then prevents further progress.
 constexpr double kStalledShare = 0.5;
 constexpr int kStalledIterations = 2;
 
@@ -89,21 +90,21 @@ struct NewtonStart {
     double rho;
     int most_steps;
     int trial_steps;  ///< steps after which a proximal step is abandoned if its error has grown
-    int most_inner;   ///< steps after which it is abandoned if its error is not small
-    /// The next rho is proportional to the residual, as in Levenberg and Marquardt's method;
-    /// otherwise it is divided by ten after proximal steps that took few Newton steps.
+    int most_inner;   ///< steps after which it is abandoned if the error is not small
+    /// Whether the next rho is proportional to the residual, as in Levenberg and Marquardt's
+    /// method; otherwise rho is divided by ten after proximal steps that took few Newton steps.
     bool rho_follows;
-    int halvings;  ///< at most, of a Newton step that makes the error grow fourfold
+    int halvings;  ///< maximum number for a Newton step that makes the error grow fourfold
     int sweeps;    ///< initial sweeps, which find most sliding contacts
-    /// Proximal steps for which rho stays ten times as large as one that failed; 0: it may fall at
-    /// once, and fail again. A jammed object whose loads are not determined needs many proximal
-    /// steps, each of which is easy while rho is large enough.
+    /// Number of proximal steps for which rho stays ten times as large as a value that failed. With
+    /// 0, it can fall to that value at once, and fail again. A jammed object whose loads are not
+    /// determined needs many proximal steps, each of which is easy while rho is large enough.
     int caution = 0;
 };
 /// The starts: two that are quick, and four with caution, which solve 99 of 100 problems that the
-/// quick ones do not. Caution was chosen on bodies thrown together with a seed other than those of
-/// the soaks; between 6 and 20 steps before a proximal step is abandoned, and between 10 and 40 of
-/// caution, the choice hardly matters.
+/// quick ones do not solve. Caution was chosen on bodies thrown together with a seed other than
+/// those of the soaks; the choice hardly matters between 6 and 20 steps before a proximal step is
+/// abandoned, and between 10 and 40 for caution.
 constexpr auto kNewtonStarts = [] {
     using From = NewtonStart::From;
     return std::array<NewtonStart, 6>{{
@@ -155,7 +156,7 @@ class ProximalNewton {
     }
 
   private:
-    static constexpr double kSafe = 0.1;  // to be reached by a start that uses up its steps
+    static constexpr double kSafe = 0.1;  // share of the tolerance that suffices after a start
     static constexpr double kLeastRho = 1e-7;
     static constexpr double kMostRho = 1.0;
     static constexpr double kRhoOfResidual = 0.3;
@@ -166,7 +167,7 @@ class ProximalNewton {
     static constexpr int kRescueSweeps = 5;
     static constexpr double kScatter = 0.3;  // of |q|
 
-    /// Whether counted work allows another step.
+    /// Whether the limits of iterations and of work allow another step.
     bool may_step() const {
         return out_.iterations < most_iterations_ && system_.work().affords(system_.step_visits());
     }
@@ -322,8 +323,8 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
         .solve(starts);
 }
 
-/// Residual of Coulomb's law. If the given problem's is above `enough`, it decides, and the scaled
-/// residual is left zero.
+/// Residual of Coulomb's law. If the given problem's residual is above `enough`, the scaled one is
+/// not computed, but left at zero.
 template <class System>
 Residual coulomb_residual(const System& system, std::span<const typename System::Vec> r,
                           std::span<const typename System::Vec> u, const Load& load,

@@ -79,8 +79,8 @@ class StaggeredProjections {
     }
 
   private:
-    // Relative to |q|. The inner loop aims at kTarget of this and need not be much more exact than
-    // the outer loop is at this point.
+    // Relative to |q|. The inner loop aims for the fraction kTarget of this, and need not be much
+    // more exact than the outer loop is at that stage.
     static constexpr double kInnerTolerance = 1e-10;
     static constexpr double kInnerOfLast = 1e-3;
     // Undetermined loads must not wander from pair to pair: a large rho that falls

@@ -179,8 +179,8 @@ bool Lemke::try_last_basis() noexcept {
     return true;
 }
 
-/// Leaves the values of the last basis in right_. Gaussian elimination in this object's memory, as
-/// Eigen's factorisations would allocate. False if the basis is singular.
+/// Leaves the values of the last basis in right_. Uses Gaussian elimination in this object's
+/// memory, because Eigen's factorisations would allocate. False if the basis is singular.
 bool Lemke::solve_last_basis(int m) noexcept {
     const auto at = [&](int i, int j) -> double& {
         return tableau_[static_cast<size_t>(i) * static_cast<size_t>(m) + static_cast<size_t>(j)];

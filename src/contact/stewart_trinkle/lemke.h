@@ -32,8 +32,8 @@ class Lemke {
     /// about that. Allocates nothing. False if no solution is found within the method's own limit
     /// of pivots, or within `most_pivots`.
     bool solve(int attempt, int64_t most_pivots = std::numeric_limits<int64_t>::max()) noexcept;
-    /// Tries the set of variables that were positive in the last solution with the present M and q.
-    /// False if this does not solve the problem.
+    /// Tries, with the present M and q, the set of variables that were positive in the last
+    /// solution. False if this does not solve the problem.
     bool try_last_basis() noexcept;
     bool solve_last_basis(int m) noexcept;
 

@@ -28,9 +28,9 @@
 
 namespace dihaptic::contact {
 
-/// Starts of Newton's method on a polygon. Each turn of the polygons is a solve, so none may take
-/// long: there are twelve short starts from random impulses instead of four with caution, which
-/// would leave less work for Lemke's method.
+/// Starts of Newton's method on a polygon. Each turn of the polygons needs a solve, so every solve
+/// must be short: there are twelve short starts from random impulses instead of four with caution,
+/// which would leave less work for Lemke's method.
 constexpr auto kPolygonStarts = [] {
     using From = NewtonStart::From;
     std::array<NewtonStart, 14> out{};
@@ -101,9 +101,9 @@ class StewartTrinkle {
         load_ = load(system);
     }
 
-    /// Starts from r; leaves the best answer in r and its velocity in memory.newton.u. Converged
-    /// means that its own problem is solved and, if directions follow friction, Coulomb's as
-    /// well.
+    /// Starts from r; leaves the best answer in r and its velocity in memory.newton.u. `converged`
+    /// means that Stewart and Trinkle's problem is solved and, if directions follow friction,
+    /// Coulomb's as well.
     StewartTrinkleOutcome solve(std::span<Vec> r) {
         StewartTrinkleOutcome out;
         std::copy(r.begin(), r.end(), m_.best.begin());
@@ -249,7 +249,7 @@ class StewartTrinkle {
         system_.velocity(r, m_.newton.u);
     }
 
-    /// Solves by Newton's method, to `enough` at least.
+    /// Solves by Newton's method, at least to the residual `enough`.
     void newton_once(std::span<Vec> r, double enough, StewartTrinkleOutcome& out) {
         auto starts = kPolygonStarts;
         if (enough > 0) {  // from the answer with slightly different polygons
@@ -353,7 +353,7 @@ class StewartTrinkle {
         return false;
     }
 
-    /// Solves by Lemke's method, to `enough` at least.
+    /// Solves by Lemke's method, at least to the residual `enough`.
     void lemke_once(std::span<Vec> r, double enough, StewartTrinkleOutcome& out) {
         constexpr double kRho = 1e-3;
         constexpr int kMostProximal = 30;

@@ -16,7 +16,8 @@ struct Jammed {
     std::vector<Impulse> start;  ///< of the previous tick
 };
 
-/// A file has the numbers of bodies and contacts, and then the members of each in their order.
+/// A file contains the numbers of bodies and contacts, and then the members of each body and
+/// contact in their order.
 Jammed read(const std::filesystem::path& file) {
     std::ifstream in(file);
     const auto fill = [&](auto& matrix) {

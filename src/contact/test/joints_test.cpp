@@ -82,8 +82,8 @@ Eigen::VectorXd stacked(const std::vector<Vec6>& of) {
     return out;
 }
 
-/// Changes of velocity by the linear equations J M^-1 J' r + (J v + bias) = 0, with the smallest
-/// impulses.
+/// Changes of velocity that follow from the linear equations J M^-1 J' r + (J v + bias) = 0, with
+/// the smallest impulses.
 Eigen::VectorXd exact_change(const ContactProblem& problem) {
     const auto m = static_cast<Eigen::Index>(problem.bodies.size());
     const auto n = static_cast<Eigen::Index>(problem.joints.size());
@@ -165,7 +165,7 @@ TEST_P(JointsOfEach, StopAndRubWithinTheirBounds) {
         problem.bodies.push_back(body(0.5, Vec3::Constant(1e-4)));
         problem.bodies[0].v_W.x() = speed;
         problem.joints.push_back(along_x(0));
-        problem.joints[0].low[0] = 0;  // a stop: it pushes only
+        problem.joints[0].low[0] = 0;  // a stop, which can only push
         EXPECT_NEAR(speed + answer(GetParam(), problem).change[0][0], std::max(0.0, speed), 1e-10);
         problem.joints[0].bias[0] = 0.2;  // at a distance of 0.2 h
         EXPECT_NEAR(speed + answer(GetParam(), problem).change[0][0], std::max(-0.2, speed), 1e-10);
@@ -203,7 +203,7 @@ TEST_P(JointsOfEach, AndContactsAreSolvedTogether) {
     const double expected = 9.81e-3 * (std::sin(slope) - 0.4 * std::cos(slope));
     for (size_t i = 0; i < 2; ++i)
         EXPECT_LT((problem.bodies[i].v_W + a.change[i].head<3>() - expected * fall).norm(), 1e-8);
-    // the rod pulls the one with more friction, by half of the difference
+    // the rod pulls the cube with more friction, with half of the difference
     EXPECT_NEAR(a.joints[0][0], 0.1 * 9.81e-3 * 0.1 * std::cos(slope), 1e-9);
 }
 

@@ -29,7 +29,7 @@ TEST(LemkeTest, SolvesProblemsThatEnumerationSolves) {
             for (int j = 0; j < n; ++j) lemke.M(i, j) = M(i, j);
         }
         ASSERT_TRUE(lemke.solve(trial % 3));
-        // positive definite: the solution is unique, and found by trying all sets
+        // M is positive definite, so the solution is unique; it is found by trying all sets
         for (int set = 0; set < 1 << n; ++set) {
             Eigen::MatrixXd B = Eigen::MatrixXd::Identity(n, n);
             for (int j = 0; j < n; ++j) {
@@ -208,14 +208,14 @@ TEST(PolygonTest, WithTorsionProjectsToItsNearestPoint) {
         const double radius = random.uniform(0.1, 2);
         const Vec3 x = vector(3);
         const auto on = polygon.project(x, radius);
-        // the nearest point of a convex body, as no part of the body lies beyond the plane through
-        // it
+        // it is the nearest point of a convex body if no part of the body lies beyond the plane
+        // through it
         double beyond = 0;
         for (int i = 0; i < polygon.count(); ++i) {
             beyond = std::max(beyond, (x - on.point).dot(radius * polygon.direction(i) - on.point));
         }
         EXPECT_LT(beyond, 1e-12);
-        // and the point belongs to the body: it is a combination of its vertices
+        // and it belongs to the body: it is a combination of the body's vertices
         const auto in = polygon.sector(on.point);
         const Vec3 shares = in.inverse * on.point / radius;
         EXPECT_GT(shares.minCoeff(), -1e-12);

@@ -75,7 +75,7 @@ TEST(StewartTrinkle, SlidesByItsPolygonWhenDirectionsAreFixed) {
 }
 
 TEST(StewartTrinkle, LeavesTheFallLineOnlyWhenDirectionsAreFixed) {
-    // no alignment: the fall line is 15 degrees from the first of four directions
+    // not aligned: the fall line is 15 degrees from the first of four directions
     const double slope = 30 * kDegree;
     const Vec3 fall(std::cos(slope), 0, -std::sin(slope));
     ContactProblem problem = block_on_plane(tilted(slope, 0), 0.5);
@@ -90,8 +90,8 @@ TEST(StewartTrinkle, LeavesTheFallLineOnlyWhenDirectionsAreFixed) {
         const Vec3 v = problem.bodies[0].v_W + a.change[0].head<3>();
         return std::atan2(v.cross(fall).norm(), v.dot(fall)) / kDegree;
     };
-    // a little transverse friction keeps it sliding at 45 degrees, where two directions are equally
-    // good
+    // a little transverse friction keeps the block sliding at 45 degrees to the directions, where
+    // two of them are equally good
     EXPECT_NEAR(off_fall_line(DirectionFrame::fixed), 30, 1e-4);
     EXPECT_LT(off_fall_line(DirectionFrame::sliding), 1e-5);
 }
@@ -116,7 +116,7 @@ TEST(StewartTrinkle, AnswersByMeansOfItsOwn) {
                 }
                 ++own;
             }
-            // with turning polygons, a few in a hundred cycle, more with torsion
+            // with turning polygons, a few problems in a hundred cycle, and more do so with torsion
             const bool hard = frame == DirectionFrame::sliding && radius > 0;
             EXPECT_GE(own, hard ? 190 : 195)
                 << static_cast<int>(frame) << ", torsion radius " << radius;
@@ -399,7 +399,7 @@ TEST_P(EachSolver, TakesOddProblems) {
     ContactProblem twice = block_on_plane(Vec3::UnitZ(), 0.8);  // with each contact twice
     for (size_t j = 0; j < 4; ++j) twice.contacts.push_back(twice.contacts[j]);
     fine(twice);
-    ContactProblem held = block_on_plane(Vec3::UnitZ(), 0.8);  // may only rise
+    ContactProblem held = block_on_plane(Vec3::UnitZ(), 0.8);  // the block can only rise
     held.bodies[0].inverse_mass = Vec6(0, 0, 10, 0, 0, 0).asDiagonal();
     fine(held);
     ContactProblem heavy = block_on_plane(Vec3::UnitZ(), 0.8);  // a gram under a ton
@@ -488,12 +488,12 @@ TEST(SequentialImpulse, NearsTheAnswerOfTheOthersWithTorsionToo) {
         EXPECT_LT(residual, 1e-2) << i;
         near += residual < 1e-5 ? 1 : 0;
     }
-    EXPECT_GE(near, 95);  // a few in a hundred go round in circles
+    EXPECT_GE(near, 95);  // a few problems in a hundred go round in circles
 }
 
 TEST(Hold, TakesAwayOneMotionAndKeepsTheInertiaOfTheOthers) {
-    // a slanted rod that can turn about x alone has 1 / I_xx there, whatever its products of
-    // inertia
+    // a slanted rod that can turn about x alone has the inverse moment 1 / I_xx about x, whatever
+    // its products of inertia
     const Mat3 R = Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized())).toRotationMatrix();
     const Mat3 I = R * Vec3(1, 2, 0.1).asDiagonal() * R.transpose();
     Mat6 A = Mat6::Zero();

@@ -17,7 +17,7 @@ TEST(WorkTest, KeepsAShareForSweepsAndForOthers) {
     work.begin_sweeps(0);
     EXPECT_EQ(work.times(10), 20);
     work.spend(150);
-    work.begin_sweeps(120);  // these are always made
+    work.begin_sweeps(120);  // these sweeps are always made
     EXPECT_TRUE(work.affords(120));
     EXPECT_FALSE(work.affords(121));
 

@@ -20,10 +20,10 @@ struct ContactLaw {
     int sharing = 1;              ///< number of contacts that share the stiffness of a face
     double compliance = 0;        ///< for a point proxy, from its owner [m/s per N*s]
     double height = 0;            ///< of textures above the faces [m]
-    Vec3 slope_W = Vec3::Zero();  ///< gradient of that, along the face of Bullet's body 1
+    Vec3 slope_W = Vec3::Zero();  ///< gradient of height, along the face of Bullet's body 1
 };
 
-/// Impulses on Bullet's body 0, to which its normal points.
+/// Impulses on Bullet's body 0, towards which the contact's normal points.
 struct Carried {
     double normal = 0;               ///< [N*s]
     Vec3 friction_W = Vec3::Zero();  ///< [N*s]
@@ -33,7 +33,7 @@ struct Carried {
     bool in_use = false;
 };
 
-/// A point's record, which CarriedPool has given to it.
+/// The record that CarriedPool has given to a point.
 inline Carried& carried(const btManifoldPoint& point) {
     return *static_cast<Carried*>(point.m_userPersistentData);
 }
@@ -46,7 +46,7 @@ inline Vec3 normal_of(const btManifoldPoint& point) {
     return slope_W.isZero(0) ? n_W : (n_W - slope_W).normalized();
 }
 
-/// The gap along that normal, with the height of textures [m].
+/// The gap along normal_of(), with the height of textures [m].
 inline double gap_of(const btManifoldPoint& point) {
     const ContactLaw& law = carried(point).law;
     return (point.getDistance() - law.height) / std::sqrt(1 + law.slope_W.squaredNorm());

@@ -105,7 +105,7 @@ double depth_of(const btPersistentManifold& manifold) {
     return least;
 }
 
-/// Whether bodies that touch are soft there.
+/// Whether two touching bodies are soft at their contacts.
 bool is_soft(const btPersistentManifold& manifold) {
     if (manifold.getNumContacts() == 0) return false;
     const btManifoldPoint& point = manifold.getContactPoint(0);
@@ -118,7 +118,7 @@ btDefaultCollisionConstructionInfo pools(int max_pairs) {
     btDefaultCollisionConstructionInfo info;
     info.m_customCollisionAlgorithmMaxElementSize = 256;
     info.m_defaultMaxPersistentManifoldPoolSize = max_pairs;
-    info.m_defaultMaxCollisionAlgorithmPoolSize = max_pairs + 1;  // one for find_entered()
+    info.m_defaultMaxCollisionAlgorithmPoolSize = max_pairs + 1;  // 1 more for find_entered()
     return info;
 }
 
@@ -152,7 +152,7 @@ Collision::Collision(int max_parts, int max_pairs)
     new_.reserve(kMostEntered);
     for (size_t i = 0; i < kMostEntered; ++i) {
         entered_.push_back(std::make_unique<btPersistentManifold>());
-        // Bullet's constructor does not set it
+        // Bullet's constructor does not set this threshold
         entered_.back()->setContactBreakingThreshold(BT_LARGE_FLOAT);
     }
     reserve_pairs(max_pairs);
@@ -217,7 +217,7 @@ void Collision::set_bounds(CollisionPart& part, double h, bool keep) {
 
 void Collision::hide(CollisionPart& part) {
     part.hidden = true;
-    // moves its bounds away from all bodies, so that its pairs end
+    // moves the part's bounds away from all bodies, so that its pairs are dropped
     const btVector3 corner(kWorldHalfExtent, kWorldHalfExtent, kWorldHalfExtent);
     broadphase_.setAabb(part.bounds, corner, corner, &dispatcher_);
 }
@@ -405,7 +405,7 @@ double Collision::walk(btBroadphasePair& pair, double h, int first, btPersistent
     const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, X_WA, -1, -1);
     const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
     const double way = approach(a_wrap, b_wrap, h);
-    if (!(way > kEntered)) return 1;  // also if it is not a number
+    if (!(way > kEntered)) return 1;  // also if `way` is not a number
     const btPersistentManifold* known = manifold_of(pair);
     // bodies may enter soft ones, to the depth that their contact allows
     if (known != nullptr && is_soft(*known)) return 1;

@@ -52,9 +52,9 @@ class Collision {
     /// find_contacts() does. Strides along the paths are counted in `work`; when it is used up, the
     /// search ends (search_was_cut()).
     bool find_entered(double h, double recovery, contact::Work& work);
-    /// The last resort if find_entered() does not suffice: bodies that would still enter each
-    /// other cover only a fraction of their path in the step, their hit fraction, which is 1 before
-    /// the first call. False if there are none.
+    /// The last resort if find_entered() does not suffice: bodies that would still enter each other
+    /// cover only a fraction of their path in the step. This hit fraction is 1 before the first
+    /// call. False if there are no such bodies.
     bool hold_back(double h, contact::Work& work);
     /// Whether find_entered() may have missed contacts since the last find_contacts(): it had no
     /// room for more, or assumed that bodies already inside each other were leaving.
@@ -159,7 +159,7 @@ class Collision {
     int max_pairs_;
     OtherBodies other_bodies_;
     std::vector<CollisionPart*> parts_;
-    bool several_parts_ = false;  // whether any body has several
+    bool several_parts_ = false;  // whether any body has several parts
     struct OfBodies {
         std::array<int, 3> key;  // both bodies, and the order of detection
         OfParts of;
@@ -175,7 +175,7 @@ class Collision {
     std::vector<int> live_;                   // pairs with an awake body, by index into the cache
     int64_t live_version_ = -1;               // version of the pairs in live_
     bool live_is_stale_ = true;
-    std::vector<char> looked_at_;  // whether it was examined, by pair
+    std::vector<char> looked_at_;  // by pair: whether it was examined
     bool overflowed_ = false;
     bool search_was_cut_ = false;
     bool is_unsure_ = false;

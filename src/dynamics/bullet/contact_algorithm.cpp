@@ -14,8 +14,8 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Contacts are found this far ahead of touch, and farther for bodies that could approach by more
-/// in the step.
+/// Contacts are found this far before bodies touch, and farther for bodies that could approach by
+/// more in the step.
 constexpr double kMargin = 5e-4;      // [m]
 constexpr double kMostMargin = 0.25;  // [m]
 /// A contact within this distance of an old one on the body continues it.

@@ -87,7 +87,7 @@ Quat frame_along(const Vec3& axis, const Vec3& second) {
     return Quat(R);
 }
 
-/// The rows of a bushing along and about axes that have neither a spring nor a damper.
+/// Disables a bushing's rows along and about axes that have neither a spring nor a damper.
 void close_free(const scene::Joint& bushing, std::span<ProblemJoint> rows) {
     for (int k = 0; k < ProblemJoint::kRows; ++k) {
         if (bushing.stiffnesses[k] == 0 && bushing.dampings[k] == 0) close(rows[0], k);
@@ -232,8 +232,8 @@ void Joints::fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
 namespace {
 
 /// A row for a spring and a damper, with u as the previous rate of stretch. At the end of a step
-/// without motion it would resist with `force`, and per unit of further stretch with `stiffness`
-/// more.
+/// without motion it would resist with `force`, and with `stiffness` more per unit of further
+/// stretch.
 void ask_of_spring(double force, double stiffness, double damping, double inverse_mass, double u,
                    double h, int k, ProblemJoint& row) {
     const double s = h * h * stiffness * inverse_mass;
@@ -320,7 +320,7 @@ void Joints::ask_of_coordinate(size_t i, double q, double h, ProblemJoint& row) 
     const scene::Joint& spec = joint.spec;
     scene::SpringCurve::Point at{spec.stiffness * (q - spec.rest), spec.stiffness};
     if (!spec.curve.is_empty()) at = spec.curve.at(q - spec.rest);
-    // where a curve falls, the end of a step cannot be stable
+    // where a curve falls, its negative stiffness at the end of a step would be unstable
     ask_of_spring(at.resistance * joint.properties.stiffness,
                   std::max(0.0, at.stiffness) * joint.properties.stiffness,
                   spec.damping * joint.properties.damping, joint.inverse_mass, states_[i].velocity,
@@ -354,7 +354,8 @@ void Joints::ask_of_motor(const Joint& joint, double q, double h, int k,
     const double most = joint.motor->most_force;
     row.low[k] = -h * most;
     row.high[k] = h * most;
-    // half of its force stops it in time, relative to the moving target
+    // slow enough for half of the motor's force to stop it at the target, relative to the target's
+    // motion
     const double led = joint.led_from ? std::abs(to - *joint.led_from) / h : 0;
     const double fastest = led + std::sqrt(most * joint.inverse_mass * std::abs(q - to));
     row.bias[k] = std::clamp((q - to) / h, -fastest, fastest);

@@ -65,8 +65,8 @@ class Joints {
     double stored(size_t i) const noexcept {
         return stored(joints_[i], 0, Vec3::Zero(), Vec3::Zero());
     }
-    /// Effect of a unit force of the coordinate on the first and on the second body: a force at its
-    /// centre of mass and a torque; zero without a coordinate.
+    /// Effect of a unit force of the coordinate on the first and on the second body: a force at the
+    /// body's centre of mass and a torque; zero without a coordinate.
     std::pair<contact::Vec6, contact::Vec6> along(size_t i) const noexcept;
 
     /// Adds the rows of these joints to the problem, which contains their bodies at `index`, by
@@ -78,7 +78,7 @@ class Joints {
     /// largest change of a bias [m/s], [rad/s].
     double guess(std::span<const size_t> which, std::span<const int> index, double h,
                  std::span<const contact::Vec6> change, contact::ContactProblem& problem) noexcept;
-    /// Requires the joints' equations for the velocities only, and corrects errors of position: a
+    /// Imposes the joints' equations on the velocities only, and corrects errors of position: a
     /// first-order step, which adds no energy except by that correction.
     void hold(std::span<const size_t> which, double h, contact::ContactProblem& problem) noexcept;
     /// Keeps the impulses of a step of h, and its changes of velocity, by index in the problem.
@@ -92,7 +92,8 @@ class Joints {
     /// The point of action of a joint's force on both bodies in the step: the second body's point
     /// at its start.
     const Vec3& acts_at(size_t i) const noexcept { return joints_[i].acts_at_W; }
-    /// The action of a joint in a step of h in which its bodies move like this at acts_at().
+    /// The action of a joint in a step of h in which its bodies move at acts_at() as `meeting`
+    /// states.
     Books::Exchange exchange(size_t i, double h, const Books::Meeting& meeting) const noexcept;
     /// Forgets the impulses.
     void forget() noexcept;
@@ -151,8 +152,8 @@ class Joints {
     static void ask_of_bushing(const Joint& joint, const Gaps& then, double h,
                                const contact::Vec6& v_a, const contact::Vec6& v_b,
                                std::span<contact::ProblemJoint> rows) noexcept;
-    /// Energy of its springs half a step after the start of the step, if moved at these velocities
-    /// [J]; before the start, for a negative h.
+    /// Energy of a joint's springs half a step after the start of the step, if its bodies move at
+    /// these velocities [J]; for a negative h, half a step before the start.
     static double stored(const Joint& joint, double h, const Vec3& v_W, const Vec3& w_W) noexcept;
     /// The row of a motor or, without one, of dry friction.
     static void ask_of_motor(const Joint& joint, double q, double h, int k,

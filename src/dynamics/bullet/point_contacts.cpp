@@ -12,7 +12,7 @@ void PointContacts::reserve(int points) {
     taken_.reserve(slots_.size());
     for (Slot& slot : slots_) {
         slot.manifold = std::make_unique<btPersistentManifold>();
-        // Bullet's constructor does not set it
+        // Bullet's constructor does not set this threshold
         slot.manifold->setContactBreakingThreshold(BT_LARGE_FLOAT);
     }
 }

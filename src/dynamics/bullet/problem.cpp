@@ -86,7 +86,7 @@ Vec3 on_arcs(const contact::ContactProblem& problem, const contact::ProblemConta
 /// The same along the tangents. Bodies that turn together, or about the contact's normal, move on
 /// arcs, and stay together if their points reach the ends of the same chord. By velocities alone, a
 /// block on a turntable would creep outward by w^2 r h / 2, and a body that swings between two pads
-/// would slip. Zero for bodies that roll on each other, whose points do not stay together; call it
+/// would slip. Zero for bodies that roll on each other, whose points do not stay together; meant
 /// for patches of contacts.
 Eigen::Vector2d along_arcs(const contact::ContactProblem& problem,
                            const contact::ProblemContact& contact, double h) {
@@ -116,11 +116,11 @@ Vec3 by_rolling(const contact::ContactProblem& problem, const contact::ProblemCo
     return contact.R_WC.transpose() * turns.cross(ahead);
 }
 
-/// Normal velocity of separation, by Newton's law e u for the speed u at which
-/// they touch, at the fraction `when` of the step. `free` is the normal velocity without the
-/// contact, in the middle of the step; loads changed it by `loads`, and will again in the next
-/// step. Velocities are those of the middle of steps, so half of that acts between there and the
-/// touch. Zero for an impact so slow that they would be back in the next step.
+/// Normal velocity of separation, by Newton's law e u for the speed u at which the bodies touch, at
+/// the fraction `when` of the step. `free` is the normal velocity without the contact, in the
+/// middle of the step; loads changed it by `loads`, and will again in the next step. Velocities are
+/// those of the middle of steps, so the part of `loads` between the middle and the touch is taken
+/// into account. Zero for an impact so slow that the bodies would touch again in the next step.
 double rebound(double free, double when, double loads, double restitution) {
     const double leaves = restitution * (-free - loads * (when - 0.5));
     const double speed = leaves + std::clamp(loads, -leaves, leaves) / 2;

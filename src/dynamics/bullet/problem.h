@@ -18,12 +18,13 @@ struct Carried;
 class ManifoldProblem {
   public:
     /// Reserves memory for this many contact points. The torsion radii of all bodies, by user
-    /// index, give those of pairs: the larger one counts [m].
+    /// index, give those of pairs: the larger one is used [m].
     void reserve(std::vector<double> torsion_radii, int contacts, size_t joint_elements);
 
     /// Builds the problem of these bodies, which can move, with their present velocities;
-    /// `inverse_mass` has the values of all bodies, by user index. A gap becomes the velocity that
-    /// closes it in one step of h; the fraction `recovery` of a penetration is removed per step.
+    /// `inverse_mass` holds the values of all bodies, by user index. A gap becomes the velocity
+    /// that closes it in one step of h; the fraction `recovery` of a penetration is removed per
+    /// step.
     void build(std::span<btCollisionObject*> bodies, std::span<const contact::Mat6> inverse_mass,
                std::span<btPersistentManifold*> manifolds, double h, double recovery,
                bool warm_start) noexcept;
@@ -47,7 +48,7 @@ class ManifoldProblem {
     /// Like Joints::guess().
     double guess(Joints& joints, std::span<const size_t> which, double h,
                  std::span<const contact::Vec6> change) noexcept;
-    /// Requires the joints' equations for the velocities only (Joints::hold).
+    /// Imposes the joints' equations on the velocities only (Joints::hold).
     void hold(Joints& joints, std::span<const size_t> which, double h) noexcept;
 
     /// Angular velocity of a body of the problem before the impulses.
@@ -57,8 +58,8 @@ class ManifoldProblem {
     std::span<contact::Impulse> impulses() noexcept { return impulses_; }
     std::span<Vec3> joint_impulses() noexcept { return joint_impulses_; }
 
-    /// Stores the impulses with the joints, and these changes of velocity, by the problem's
-    /// bodies.
+    /// Stores with the joints their impulses, and `change`, the change of velocity of each of the
+    /// problem's bodies.
     void store(Joints& joints, std::span<const size_t> which, std::span<const contact::Vec6> change,
                double h) const noexcept;
     /// Stores the impulses with the manifolds' points.
@@ -76,12 +77,12 @@ class ManifoldProblem {
     std::vector<double> torsion_radii_;
 };
 
-/// Moves the impulses from which a step starts a tenth of the way to equal shares, along the
-/// normals within a patch of contacts. Which of a pad's four corners carries its load is
-/// undetermined when the pad cannot turn: every distribution solves the step, and any solver stays
-/// near its starting distribution. A distribution left by a transient would stay, until one
-/// corner carries all and the held object turns about it. Where the load does determine the
-/// distribution, the solve restores it.
+/// Moves the starting impulses of a step along the normals a tenth of the way towards equal shares
+/// within a patch of contacts. Which of a pad's four corners carries its load is undetermined when
+/// the pad cannot turn: every distribution solves the step, and any solver stays near its starting
+/// distribution. A distribution left by a transient would stay, until one corner carries all and
+/// the held object turns about it. Where the load does determine the distribution, the solve
+/// restores it.
 void even_out(btPersistentManifold& manifold) noexcept;
 
 }  // namespace dihaptic::dynamics

@@ -22,10 +22,10 @@ struct OfParts {
     const CollisionPart* part_0 = nullptr;  ///< of its body 0
     const CollisionPart* part_1 = nullptr;
     double nearest = 0;            ///< result of remove_inner_contacts()
-    std::bitset<4> is_inner = {};  ///< which of its points are inner ones; likewise
+    std::bitset<4> is_inner = {};  ///< its inner points, likewise a result
 };
 
-/// Removes such points from the manifolds of two bodies, which may leave some manifolds empty.
+/// Removes inner points from the manifolds of two bodies, which can leave some manifolds empty.
 void remove_inner_contacts(std::span<OfParts> of_two_bodies) noexcept;
 
 }  // namespace dihaptic::dynamics

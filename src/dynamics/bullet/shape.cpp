@@ -49,7 +49,7 @@ std::unique_ptr<btCollisionShape> bullet_shape(const scene::Shape& shape) {
         case ShapeKind::mesh:
             return bullet_hull(shape.hull);
         case ShapeKind::compound:
-            break;  // its parts have shapes
+            break;  // only its parts have shapes
     }
     return nullptr;
 }

@@ -45,7 +45,7 @@ struct CollisionPart {
     std::unique_ptr<Polyhedron> polyhedron;   // null if round, flat, or with too many edges
     std::optional<Round> round;
     btTransform X_MS;
-    double thickness = 0;                 // the smallest extent of its bounds [m]; huge if a plane
+    double thickness = 0;                 // the smallest extent of its bounds [m]; huge for a plane
     bool moved = false;                   // X_MS is not the identity
     bool hidden = false;                  // the part has no contacts
     btBroadphaseProxy* bounds = nullptr;  // set once the part is added to a Collision

@@ -1,6 +1,6 @@
-// Steps two thousand extreme scenes, with another solver twenty times a second: no step takes so
-// long that a device would switch its force off. Each scene runs twice, with identical results,
-// and the shorter time of a step counts: the time of other programs is excluded.
+// Steps two thousand extreme scenes, changing the solver twenty times a second: no step takes so
+// long that a device would switch its force off. Each scene runs twice, with identical results, and
+// the shorter of each step's two times is used, to exclude the time of other programs.
 #include <gtest/gtest.h>
 
 #include <time.h>

@@ -18,7 +18,7 @@ Vec3 random_vector(Random& random, double size) {
     return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
 }
 
-/// Bodies above a table, joined to a tree or sometimes a loop; and two jaws.
+/// Bodies above a table, joined into a tree or sometimes a loop; and two jaws.
 struct Mechanism {
     scene::Scene scene;
     size_t jaws = 0;  // index of the first jaw
@@ -113,9 +113,9 @@ TEST_P(MechanismsSoak, AMillionStepsHarmNothing) {
         world.activate();
         const auto jaw = static_cast<int>(mechanism.jaws);
         const double squeeze = random.uniform(2, 20);
-        const double lift = random.uniform(1, 3);  // in units of their weight
+        const double lift = random.uniform(1, 3);  // in units of the jaws' weight
         for (int i = 0; i < kSteps; ++i) {
-            // they close, lift, and let go
+            // the jaws close, lift and open again
             const double close = i < 700 ? squeeze : -squeeze;
             const double up = (i > 300 && i < 700 ? lift : 1) * 0.2 * kGravity;
             world.apply({jaw}, {close, 0, up}, Vec3::Zero());
@@ -135,7 +135,7 @@ TEST_P(MechanismsSoak, AMillionStepsHarmNothing) {
     EXPECT_LT(fastest, 70);
     EXPECT_LE(worst_unreported, 1.0001e-8);
     EXPECT_LT(missed, kScenes * kSteps / 100);
-    std::printf("missed and said so: %d of %d; fastest %.1f m/s; worst residual otherwise %.1e\n",
+    std::printf("misses, all reported: %d of %d; fastest %.1f m/s; worst residual otherwise %.1e\n",
                 missed, kScenes * kSteps, fastest, worst_unreported);
 }
 

@@ -1,4 +1,5 @@
-// Tests that counted work bounds every step that a hand waits for, and that the step reports it.
+// Tests that every step for which a hand waits stays within the limit of counted work, and reports
+// reaching it.
 #include <gtest/gtest.h>
 
 #include "base/number.h"
@@ -17,7 +18,7 @@ TEST(Bounded, NoStepOfAnExtremeSceneDoesMoreThanItMay) {
     for (uint64_t seed = 0; seed < 24; ++seed) {
         Extreme extreme(seed);
         for (int i = 0; i < 24; ++i) {
-            // twenty times a second, and more often than that
+            // much more often than twenty times a second
             if (i % 6 == 0)
                 extreme.world().set_solver(contact::Solver((i / 6 + seed) % contact::kSolvers));
             if (extreme.step(i) == StepStatus::diverged) extreme.world().mend();
@@ -76,8 +77,8 @@ TEST(Bounded, APlateOnARailThatIsInsideTheTableIsSolvedAllTheSame) {
     }
 }
 
-/// A block in the air between two pads; optionally, a third pad on a block that two walls
-/// crush, which has no solution.
+/// A block in the air between two pads; optionally, also a third pad on a block that two walls
+/// crush, a problem without a solution.
 World two_hands(bool crushed) {
     scene::Scene scene;
     scene.bodies = {table(), box("crushed", Vec3::Constant(0.04), {0.5, 0, 0.02}, 0.1),

@@ -68,7 +68,8 @@ TEST(Concave, AMugHangsOnAHookBelowWhereItsHandleRests) {
                         mug_body});
     run(world, 4 * kSeconds);
     const BodyState& mug = world.states()[1];
-    // over a second, the supporting impulse equals that of its weight plus its gain of momentum
+    // over a second, the supporting impulse equals that of the mug's weight plus the mug's gain of
+    // momentum
     Vec3 impulse = Vec3::Zero();
     const Vec3 centre(solid_of(mug_body.shape, 0.15).X_BM.p);
     const auto momentum = [&] {
@@ -83,7 +84,7 @@ TEST(Concave, AMugHangsOnAHookBelowWhereItsHandleRests) {
     const Vec3 gained = momentum() - before;
     EXPECT_LT((impulse - Vec3(0, 0, 0.15 * kGravity) - gained).norm(), 1e-6);
     EXPECT_GT(mug.X_WB.p.z(), -0.12);
-    // its centre has come to rest below the hook
+    // the mug's centre has come to rest below the hook
     EXPECT_LT((mug.X_WB * centre - Vec3(0.016, 0, (mug.X_WB * centre).z())).norm(), 0.02);
 }
 
@@ -176,7 +177,7 @@ TEST(Concave, ACompoundTakesTheSamePlaceAsTheBoxThatItMakesUp) {
     World whole = make({table(), block({0, 0, 0.02})}, awake());
     World made = make({table(), halves}, awake());
     for (int i = 0; i < 500; ++i) {
-        // it slides at mu = 0.8: a = (1.2 - 0.8) g
+        // the block slides at mu = 0.8: a = (1.2 - 0.8) g
         for (World* world : {&whole, &made})
             world->apply({1}, {1.2 * 0.1 * kGravity, 0, 0}, Vec3::Zero());
         whole.step(kStep);
@@ -195,7 +196,7 @@ TEST(Concave, ABlockSlidesOverTheSeamOfTwoParts) {
     world.step(kStep);
     world.set_velocity({1}, {0.7, 0, 0});
     run(world, kSeconds);
-    // it stops after v^2 / (2 mu g)
+    // the block stops after v^2 / (2 mu g)
     EXPECT_NEAR(world.states()[1].X_WB.p.x(), -0.08 + 0.49 / (2 * 0.2 * kGravity), 1e-3);
     EXPECT_NEAR(world.states()[1].X_WB.p.z(), 0.02, 1e-5);
 }

@@ -44,10 +44,9 @@ struct Roll {
     double rate;  ///< W [rad/s]
     Vec3 turns{-rate / std::tan(size.lean()), 0, 0};
 
-    /// The W at which it lifts its tip. The moment of its weight and of the contact force, at x
-    /// along the line of length h / cos(a), turns its angular momentum about the tip:
-    /// m g (x - 3/4 h cos(a)) = W^2 cot(a) (I cos(a)^2 + J sin(a)^2), at most where x is at its
-    /// base.
+    /// The W at which the cone lifts its tip. The moment of its weight and of the contact force, at
+    /// x along the line of length h / cos(a), turns its angular momentum about the tip: m g (x -
+    /// 3/4 h cos(a)) = W^2 cot(a) (I cos(a)^2 + J sin(a)^2), where x is at most that of the base.
     static double lifting(const Size& size) {
         const double r = size.radius, h = size.height;
         const double c = std::cos(size.lean()), s = std::sin(size.lean());
@@ -142,7 +141,7 @@ TEST(Cone, LiftsItsTipWhereItRollsFasterThanItsWeightHolds) {
     }
 }
 
-/// Forces of the ground on the bodies on it.
+/// Sum of the vertical forces between the ground and the bodies on it.
 double held_up(const World& world) {
     double out = 0;
     for (const contact::Contact& c : world.contacts()) out += std::abs(c.f_B_W.z());
@@ -190,7 +189,7 @@ TEST(Cone, StandsAndLiesOnAHullOfManyEdges) {
 }
 
 TEST(Cone, ThatIsTiltedFallsBackOrOverByWhereItsCentreIs) {
-    // its centre is a quarter of its height above its base
+    // a cone's centre of mass is a quarter of its height above its base
     for (const Size& size : {Size{0.02, 0.06}, {0.03, 0.06}, {0.01, 0.06}}) {
         const double limit = std::atan(4 * size.radius / size.height);
         for (const Vec3& way : {Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(0.3, 1, 0)}) {

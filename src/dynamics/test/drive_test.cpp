@@ -63,7 +63,7 @@ TEST(Driven, LiftsWhatStandsOnItWithItsWeightAndInertia) {
 }
 
 TEST(Driven, ThrowsWhatItLeavesBehind) {
-    // its downward acceleration exceeds g, and the block flies from then on
+    // the platform's downward acceleration exceeds g, and the block flies from then on
     World world = with_block();
     constexpr double kAmplitude = 0.02, kOmega = 40;
     double highest = 0;
@@ -75,7 +75,7 @@ TEST(Driven, ThrowsWhatItLeavesBehind) {
         highest = std::max(highest, world.state(kBlock).X_WB.p.z() - 0.02);
     }
     EXPECT_TRUE(flew);
-    // it leaves where A w^2 cos(w t) / 2 = -g, still moving upward
+    // the block leaves the platform where A w^2 cos(w t) / 2 = -g, still moving upward
     const double c = -2 * kGravity / (kAmplitude * kOmega * kOmega);
     const double z = kAmplitude * (1 - c) / 2;
     const double v = kAmplitude * kOmega * std::sqrt(1 - c * c) / 2;
@@ -131,7 +131,7 @@ TEST(Driven, CarriesRound) {
 }
 
 TEST(Driven, KeepsWhatLiesOnATurntableWhereItIs) {
-    // with another block on top, held by a sixth of the available friction
+    // with another block on top, which needs a sixth of the available friction
     for (size_t i = 0; i < enum_names(contact::Solver{}).size(); ++i) {
         frame::DynamicsSettings settings = awake();
         settings.solver = static_cast<contact::Solver>(i);

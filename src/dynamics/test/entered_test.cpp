@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EnteredTest,
                          [](const auto& test) { return std::string(enum_name(test.param)); });
 
 TEST_P(EnteredTest, ABoxThatSpinsPastABlockStaysOutsideOfItAndGainsNoEnergy) {
-    // by 0.4 rad per step: a corner next to a face swings into it
+    // it spins by 0.4 rad per step, so that a corner next to a face swings into the face
     const Vec3 half = Vec3::Constant(0.02);
     for (uint64_t i = 0; i < 20; ++i) {
         Random random(i, "spin");

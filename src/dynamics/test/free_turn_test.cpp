@@ -29,7 +29,7 @@ Vec3 by_elliptic_functions(const Vec3& I, double w_y, double w_z, double t) {
     const double rate = std::sqrt((I.z() - I.y()) * below / (I.x() * I.y() * I.z()));
     const double k = std::sqrt((I.y() - I.x()) * above / ((I.z() - I.y()) * below));
     double cn, dn;
-    // it starts a quarter of a period later, where sn is 1
+    // the motion starts a quarter of a period later, where sn is 1
     const double quarter = std::comp_ellint_1(k);
     const double sn = boost::math::jacobi_elliptic(k, rate * t + quarter, &cn, &dn);
     return {std::sqrt(above / (I.x() * (I.z() - I.x()))) * cn,
@@ -92,7 +92,7 @@ TEST(FreeTurn, KeepsMomentumAndEnergy) {
 }
 
 TEST(FreeTurn, GetsToTheSamePlaceWhateverTheStep) {
-    // also the angle about the angular momentum, which does not follow from the velocities
+    // checks also the angle about the angular momentum, which does not follow from the velocities
     const Vec3 w(3, 20, -7);
     World coarse = turning(kBrick, w);
     World fine = turning(kBrick, w);

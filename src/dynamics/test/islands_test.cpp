@@ -1,4 +1,4 @@
-// Tests that bodies which do not touch are solved separately: a held body stays exact,
+// Tests that bodies which do not touch are solved separately: a held body is solved exactly,
 // independent of the rest of the world.
 #include <gtest/gtest.h>
 

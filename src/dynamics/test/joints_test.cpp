@@ -293,7 +293,8 @@ TEST(Hinge, StopsAndRubs) {
     EXPECT_NEAR(least, -0.5, 1e-6);
     EXPECT_NEAR(world.joints()[0].position, -0.5, 1e-6);
     EXPECT_NEAR(world.joints()[0].torque_W.y(), -kMass * kGravity * kArm * std::cos(0.5), 1e-6);
-    // dry friction above the weight's moment holds it; below, it falls with the rest
+    // dry friction above the weight's moment holds the pendulum; with less, it falls by the
+    // difference
     World held = pendulum(90 * kDegree, 1.01 * kMass * kGravity * kArm);
     for (int i = 0; i < 500; ++i) held.step(kStep);
     EXPECT_NEAR(held.joints()[0].position, 0, 1e-9);
@@ -363,7 +364,7 @@ TEST(Distance, IsARopeThatPullsOnceItIsTaut) {
             EXPECT_NEAR(world.joints()[0].force_W.z(), kMass * kGravity, 1e-6);
         }
     }
-    world.set_velocity({0}, Vec3(0, 0, 1));  // and never pushes
+    world.set_velocity({0}, Vec3(0, 0, 1));  // and the rod never pushes
     world.step(kStep);
     EXPECT_EQ(world.joints()[0].force_W.norm(), 0);
 }

@@ -73,7 +73,7 @@ TEST(Lattice, BendsAsABeam) {
     constexpr double kForce = 0.01;
     const double expected = kForce * std::pow(kLength, 3) / (3 * kYoung * kSecondMoment);
     EXPECT_NEAR(end_under({0, 0, -kForce}, Vec3::Zero()).p.z() / -expected, 1, 0.01);
-    // across its broad side it is stiffer by the square of the sides
+    // bent across its broad side it is stiffer by the square of the ratio of its sides
     const double stiffer = kWide * kWide / kHigh / kHigh;
     EXPECT_NEAR(end_under({0, kForce * stiffer, 0}, Vec3::Zero()).p.y() / expected, 1, 0.01);
 }
@@ -200,7 +200,7 @@ TEST(Lattice, IsSqueezedFromOutsideAsABlockOfItsMaterial) {
 TEST(Lattice, IsLiftedBySqueezing) {
     Squeezed squeezed({0, 0, -kGravity});
     squeezed.squeeze(1, 0, 800);
-    squeezed.squeeze(1, 0.35, 400);  // it weighs 0.29 N
+    squeezed.squeeze(1, 0.35, 400);  // the cube weighs 0.29 N
     EXPECT_GT(squeezed.lowest(), 0.02);
     squeezed.squeeze(-1, 0, 500);
     EXPECT_LT(squeezed.lowest(), 0.012);

@@ -41,7 +41,7 @@ TEST(Motor, PushesBothBodiesOfASliderOppositely) {
     }
     EXPECT_NEAR(world.states()[0].v_WB.x(), -kPush / kMass * 0.1, 1e-9);
     EXPECT_NEAR(world.states()[1].v_WB.x(), kPush / 0.3 * 0.1, 1e-9);
-    // a motor rests unless driven again
+    // a motor stops unless it is driven again
     const double before = world.joints()[0].velocity;
     world.step(kStep);
     EXPECT_NEAR(world.joints()[0].velocity, before, 1e-12);
@@ -87,7 +87,7 @@ TEST(Motor, FollowsAPathAgainstFrictionAndLoads) {
         world.apply({0}, {2, 0, 0}, Vec3::Zero());
         world.step(kStep);
         ASSERT_NEAR(world.joints()[0].position, to, 1e-7) << t;
-        // the motor's force is that of the path less the push
+        // the motor's force is the force that the path requires, less the push
         if (i > 2) {
             const double acceleration = 0.03 * 100 * std::cos(10 * (t - kStep));
             ASSERT_NEAR(world.joints()[0].force_W.x(), kMass * acceleration - 2, 0.01) << t;
@@ -126,7 +126,7 @@ TEST(Motor, ThatIsFarFromItsEndStopsThere) {
     for (const double most : {0.01, 0.1, 1.0, 10.0, 1000.0}) {
         for (const bool tells_early : {true, false}) {
             const auto [beyond, end] = arrives(most, 0, tells_early);
-            // an unforeseen end at 0.1 m/s takes v^2 / 2 a
+            // stopping from 0.1 m/s at an unforeseen end takes a distance of v^2 / 2 a
             const double foreseen = tells_early ? 0 : 0.01 / (2 * most / kMass);
             EXPECT_LT(beyond, foreseen + 1e-3) << most << " " << tells_early;
             EXPECT_NEAR(end, 0.1, most < 0.1 ? 5e-3 : 1e-6) << most << " " << tells_early;
@@ -157,7 +157,7 @@ TEST(JointProperties, ChangeSpringDamperAndFriction) {
     EXPECT_NEAR(settled({}), -sag, 1e-6);
     EXPECT_NEAR(settled({.stiffness = 0.5}), -2 * sag, 1e-6);
     EXPECT_NEAR(settled({.stiffness = 2}), -sag / 2, 1e-6);
-    // without a spring it falls at the speed at which the damper supports it
+    // without a spring the block falls at the speed at which the damper supports it
     world.set_joint_properties(0, {.stiffness = 0, .damping = 3});
     for (int i = 0; i < 1000; ++i) world.step(kStep);
     EXPECT_NEAR(world.joints()[0].velocity, -kMass * kGravity / 15, 1e-6);

@@ -130,7 +130,7 @@ TEST(Round, LiesOnALineAndStandsOnItsRim) {
     patch = collide_half_space({}, can, {Quat::Identity(), {0, 0, 0.03}}, 5e-4);
     EXPECT_EQ(patch.count, 4);
     for (const ContactPoint& point : patch.points) EXPECT_NEAR(point.gap, 0, 1e-12);
-    // across an edge of a box it touches at one point, along it at two
+    // lying across an edge of a box, the can touches it at one point; lying along the edge, at two
     const Pose above{rotation_by(std::numbers::pi / 4 * Vec3::UnitY()), {0, 0, 0}};
     const Quat along = rotation_by(std::numbers::pi / 2 * Vec3::UnitX());
     const Vec3 on_edge = above.R * Vec3(-0.02, 0, 0.015) + 0.02 * Vec3::UnitZ();
@@ -196,7 +196,7 @@ TEST(Round, WhatRollsOnALevelGoesOnAsItWas) {
 }
 
 TEST(Round, ACanThatIsTiltedFallsBackOrOverByWhereItsCentreIs) {
-    // beyond atan(r / half) its centre is past its rim
+    // beyond atan(r / half) the can's centre is past its rim
     for (const Vec3& way : {Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(0.3, 1, 0)}) {
         const double limit = std::atan(0.02 / 0.03);
         for (const double share : {0.97, 1.03}) {

@@ -15,7 +15,7 @@
 
 namespace dihaptic::dynamics {
 
-/// A vector of any length up to that of a cube's corner.
+/// A random vector from the centre of a cube with sides of 2 to any point in it.
 inline Vec3 any_direction(Random& random) {
     return {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
 }
@@ -57,7 +57,7 @@ inline std::vector<Vec3> points_of(const scene::Shape& shape, Random& random) {
         const Vec3 p = any_direction(random);
         const Vec3 inside = p.cwiseProduct(bounds);
         if (depth_in(shape, inside) < 0) continue;
-        // as far out as possible inside
+        // moved as far out as the shape allows
         double low = 1, high = 100;
         for (int i = 0; i < 40; ++i) {
             const double middle = (low + high) / 2;
@@ -271,7 +271,7 @@ class Shooting {
         for (const Vec3& p : points_) out = std::max(out, p.norm());
         return out;
     }
-    /// Their depth in each other if they were not stopped.
+    /// Largest depth of the two bodies in each other if nothing stopped them.
     double deepest_on(const scene::Body& a, const scene::Body& b, const std::vector<Vec3>& of_b,
                       const Vec3& v) const {
         double out = -1;

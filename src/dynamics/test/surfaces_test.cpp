@@ -54,14 +54,14 @@ TEST_P(OfEach, AreAsSoftAsTheySay) {
 }
 
 TEST(SoftSurfaces, SwingAtTheirFrequencyAndLoseLittle) {
-    // a block pressed into a surface by less than its weight swings like on a spring
+    // a block pressed into a surface by less than its weight oscillates as if on a spring
     constexpr double kMass = 0.2;
     for (const double hz : {3.0, 8.0, 15.0}) {
         const double omega = 2 * std::numbers::pi * hz;
         const double k = kMass * omega * omega;
         const double sunk = kMass * kGravity / k;
         OnTable on(box("block", {0.05, 0.05, 0.2}, {0, 0, 0.1 - 0.6 * sunk}, kMass));
-        on.body.turns = scene::Axes::none;  // it would fall over
+        on.body.turns = scene::Axes::none;  // otherwise it would fall over
         on.body.surface.stiffness = k;
         World world = on.make();
         std::vector<double> passes;
@@ -209,7 +209,7 @@ TEST(Ridges, HoldWhatIsTooSlowForThem) {
         if (i < 1000) first = std::max(first, way);
         if (i >= 3000) last = std::max(last, way);
     }
-    // it turns where its height is v^2 / 2 g
+    // the ball turns back where its height is v^2 / 2 g
     const double turns =
         0.01 / (2 * std::numbers::pi) * std::acos(1 - 2 * (0.05 * 0.05 / (2 * kGravity)) / 2e-4);
     EXPECT_NEAR(first, turns, 1e-4);
@@ -240,7 +240,7 @@ TEST(BouncingSurfaces, ThrowABlockBackFromAllItsCornersWithoutTurningIt) {
 }
 
 TEST(BouncingSurfaces, TakeWhatASpringGivesMeanwhile) {
-    // a paddle on a spring, let go at -x0, hits a ball at rest at -x0 / 2
+    // a paddle on a spring, released at -x0, hits a ball at rest at -x0 / 2
     constexpr double kMass = 0.1, kRate = 400, kStretch = 0.01;
     scene::Scene scene;
     scene.gravity.setZero();
@@ -261,7 +261,7 @@ TEST(BouncingSurfaces, TakeWhatASpringGivesMeanwhile) {
 }
 
 TEST(BouncingSurfaces, GiveADoublePendulumThatStrikesATableNoEnergy) {
-    // Kane and Levinson (1985): with friction, Newton's law alone makes it faster
+    // Kane and Levinson (1985): with friction, Newton's law alone would add energy
     Random random(11, "strikes");
     for (int i = 0; i < 300; ++i) {
         const double a = random.uniform(5, 60) * kDegree;  // from the vertical
@@ -352,7 +352,7 @@ TEST_P(OfEach, KeepTheEnergyOfARowOfBallsWhateverItsGaps) {
             }
             EXPECT_NEAR(momentum, 1, 1e-3) << gap << " " << i;
         }
-        // one after another they pass on all their momentum
+        // each ball in turn passes on all its momentum
         if (gap >= 5e-4) {
             EXPECT_NEAR(world.state({4}).v_WB.x(), speed, 0.01 * speed) << gap;
         }
@@ -398,8 +398,8 @@ Slid slides(const OnTable& on, double speed, double force, double duration) {
     return {world.state(kBody).X_WB.p.x() - from, world.state(kBody).v_WB.x()};
 }
 
-/// The same by its equation of motion, in steps of 10 us. In the world the speed at the start is
-/// the speed half a step later.
+/// The same from the block's equation of motion, in steps of 10 us. In the world the speed at the
+/// start is the speed half a step later.
 Slid slides(const scene::PairSurface& surface, double mass, double speed, double force,
             double duration) {
     constexpr double kFine = 1e-5;

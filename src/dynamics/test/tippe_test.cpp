@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kRadius = 0.015;  // [m]
 
-/// A ball with a smaller one inside, whose volume counts twice.
+/// A ball with a smaller one inside it, so that the smaller volume has twice the density.
 scene::Body top() {
     scene::Body out;
     out.name = "top";

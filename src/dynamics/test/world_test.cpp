@@ -62,7 +62,7 @@ TEST(World, FallsOntoTheTableWithoutPassingOrBouncing) {
 }
 
 TEST(World, StepChangesMomentumByLoadsAndContactForces) {
-    // the force from the contacts is the acting force
+    // the forces that the contacts report are those that acted
     World world = make({table(0.3), block({0, 0, 0.02}, 0.3)}, awake());
     for (int i = 0; i < 200; ++i) {
         const Vec3 before = 0.1 * world.states()[1].v_WB;
@@ -285,7 +285,7 @@ TEST(World, AFixedBodyThatIsPutElsewhereNoLongerCarriesAndLaterDoes) {
                     1e-9);
     }
     EXPECT_EQ(noted(), 0);
-    // in the path of the fall, it supports again
+    // moved into the path of the fall, the shelf carries the block again
     world.set_pose({1}, {Quat::Identity(), {0, 0, 0.13}});
     run(world, 0.5);
     EXPECT_NEAR(world.states()[2].X_WB.p.z(), 0.16, 1e-5);
@@ -300,7 +300,7 @@ TEST(Sleep, ALoadWakesABodyAndAllThatItTouches) {
     world.step(kStep);
     EXPECT_TRUE(world.states()[1].awake);
     EXPECT_TRUE(world.states()[2].awake);
-    EXPECT_LT(std::abs(world.states()[2].v_WB.z()), 1e-6);  // it is still carried
+    EXPECT_LT(std::abs(world.states()[2].v_WB.z()), 1e-6);  // the block is still carried
 }
 
 TEST(Sleep, WhatFallsOnASleeperWakesItInTheSameStep) {

@@ -289,7 +289,7 @@ TEST(Movement, GivesTheFingersThatAreAskedForInTheirOrder) {
     ASSERT_EQ(diagnostics.problems().size(), 1u);
     EXPECT_EQ(diagnostics.problems()[0].place.line, 1);
     EXPECT_NE(diagnostics.problems()[0].text().find(
-                  "error: middle: the movement has no such finger, but index, thumb"),
+                  "error: middle: the movement has no such finger; it has index, thumb"),
               std::string::npos);
     choose_fingers(movement, {"thumb"}, diagnostics);
     EXPECT_NE(diagnostics.problems()[1].text().find("warning: index: is not a finger of the scene"),

@@ -39,8 +39,8 @@ TEST(Script, VelocityIsTheDerivativeOfPosition) {
     }
 }
 
-/// A throw: upward, reaching 1.2 m/s, and further while the hand opens and turns; then the index
-/// alone.
+/// A throw: the hand rises, reaching 1.2 m/s, and rises further while it opens and turns; then the
+/// index does the same alone.
 HandSpec throwing() {
     HandSpec hand = spec();
     ScriptStep up;

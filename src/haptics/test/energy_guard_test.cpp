@@ -31,7 +31,7 @@ struct Motion {
     void tick(double p_H, double v_H, double p_P, double force) {
         watch(guard, p_H, v_H, p_P, force, flags);
     }
-    /// Takes the handle `depth` into a wall at x = 0 and out again, as a sine of 20 Hz, for
+    /// Moves the handle by `depth` into a wall at x = 0 and out again, in a sine of 20 Hz, for
     /// `cycles`, with damping c. Returns the sum of the squares of its steps inside.
     double press(double c, double depth, int cycles) {
         const double w = 2 * std::numbers::pi * 20;
@@ -130,8 +130,8 @@ TEST(EnergyGuard, LetsASpringThatCameFreeCatchAgainWithWhatItKept) {
     for (int i = 0; i < 3; ++i) run.tick(0.001, 0, 0.04, 39);
     EXPECT_LT(run.guard.generated(), 1e-12);
     EXPECT_EQ(run.flags, 0u);
-    // it must not have energy that it did not store: it relaxes, and is stretched again without any
-    // work
+    // the spring must not return energy that it did not store: it relaxes, and is stretched again
+    // without any work
     run.tick(0.001, 0, 0.001, 0);
     run.tick(0.021, 0, 0.001, 0);
     for (int i = 0; i < 3; ++i) run.tick(0.021, 0, 0.001, -20);
@@ -149,7 +149,8 @@ TEST(EnergyGuard, LetsABodyHitARestingProxy) {
 
 TEST(EnergyGuard, IsNotLulledByWhatWasDissipatedBefore) {
     // 5 N*s/m absorb energy for a second; then the same negative damping releases it. With v the
-    // mean square of the speed while in touch, half of the time, that is c v / 2 per second.
+    // mean square of the speed while in touch, which is half of the time, the energy is c v / 2 per
+    // second.
     Motion run;
     const double depth = 0.002;
     run.press(5, depth, 20);
@@ -160,7 +161,7 @@ TEST(EnergyGuard, IsNotLulledByWhatWasDissipatedBefore) {
     run.press(-5, depth, cycles);
     EXPECT_NE(run.flags & kEnergyGenerated, 0u) << cycles;
     EXPECT_LT(cycles, 10);
-    EXPECT_EQ(run.flags & kEnergyDamped, 0u);  // the mode is warn
+    EXPECT_EQ(run.flags & kEnergyDamped, 0u);  // because the mode is 'warn'
 }
 
 TEST(EnergyGuard, ActsAgainstTheMotionAndNoMoreThanItNeeds) {

@@ -91,8 +91,8 @@ TEST_P(EveryShape, PressesAreFeltOutOfTheFaceThatWasEntered) {
             const Vec3 foot =
                 next - surface.distance(entered, next) * surface.normal(entered, next);
             const bool flat = surface.bent_part(entered, foot, Vec3::UnitX()).isZero(0);
-            // near its centre a round shape lets the point around to the other side within a few
-            // ticks
+            // if the handle is near its centre, a round shape lets the point around to the other
+            // side within a few ticks
             const bool shallow =
                 flat || surface.distance(entered, next) > -0.6 * surface.bend_radius(foot);
             if (shallow && force.norm() > 1e-6) {
@@ -129,15 +129,15 @@ TEST(GodObject, FollowsTheHandleExactlyInFreeSpace) {
 }
 
 TEST(GodObject, NearABoxsCornerTheEnteredFaceIsKept) {
-    // the handle is 1 mm from the edge; at 5 mm depth the side is nearer, but it entered through
-    // the top
+    // the handle is 1 mm from the edge; at 5 mm depth the side is nearer, but the point entered
+    // through the top
     Room room;
     room.add(scene::Shape::box({0.04, 0.04, 0.04}));
     room.start({0.019, 0, 0.025});
     room.go({0.019, 0, 0.025}, {0.019, 0, 0.010});
     EXPECT_LT((room.point->position() - Vec3(0.019, 0, 0.02)).norm(), 1e-9);
     EXPECT_LT((room.point->contacts()[0].n_W - Vec3::UnitZ()).norm(), 1e-12);
-    // beyond the edge it is free, and on re-entry the side is felt
+    // beyond the edge the point is free, and on re-entry the side is felt
     room.go({0.019, 0, 0.010}, {0.022, 0, 0.010});
     EXPECT_TRUE(room.point->contacts().empty());
     room.go({0.022, 0, 0.010}, {0.012, 0, 0.010});
@@ -148,7 +148,7 @@ TEST(GodObject, NearABoxsCornerTheEnteredFaceIsKept) {
 TEST(GodObject, PushingThroughAThinWedgeIsFeltOutThroughTheFaceItCameBy) {
     Room room;
     room.add(thin_wedge());
-    const Vec3 n = Vec3(0.001, 0, 0.03).normalized();  // its upper face
+    const Vec3 n = Vec3(0.001, 0, 0.03).normalized();  // of the upper face
     const Vec3 above(0.015, 0.003, 0.01);
     room.start(above);
     room.go(above, {0.015, 0.003, -0.008});
@@ -156,7 +156,7 @@ TEST(GodObject, PushingThroughAThinWedgeIsFeltOutThroughTheFaceItCameBy) {
     EXPECT_LT((force.normalized() - n).norm(), 1e-6);
     EXPECT_GT(force.norm(), 0.008);  // deeper than the wedge is thick
     EXPECT_LT(room.depth(), kOnSurface);
-    // a stroke through it in a single tick
+    // a stroke through the wedge in a single tick
     room.start(above);
     room.follow({0.015, 0.003, -0.02});
     EXPECT_LT((room.point->position() - Vec3(0.015, 0.003, -0.02)).normalized().cross(n).norm(),
@@ -245,7 +245,7 @@ TEST(GodObject, ATurningBodyCarriesItAtFullFriction) {
 }
 
 TEST(GodObject, TwoBodiesThatMoveTogetherCarryIt) {
-    // in the corner of a box and a plate that fly off together while turning
+    // the point is in the corner of a box and a plate that fly off together while turning
     Room room;
     room.skin = kSkin;
     room.add(scene::Shape::box({0.1, 0.1, 0.02}), {Quat::Identity(), {0, 0, -0.01}});
@@ -291,7 +291,7 @@ TEST(GodObject, SticksUnderStaticFrictionAndSlidesAtDynamicFriction) {
     room.follow({0.00161, 0, -0.002});
     EXPECT_TRUE(room.point->sliding());
     EXPECT_NEAR(room.point->position().x(), 0.00161 - 0.0008, 1e-9);
-    // it slides on behind the handle, and rests when the handle stops
+    // the point slides on behind the handle, and rests when the handle stops
     room.go({0.00161, 0, -0.002}, {0.01, 0, -0.002});
     EXPECT_NEAR(room.point->position().x(), 0.01 - 0.0008, 1e-9);
     EXPECT_NEAR(room.point->held().norm(), 0.0008, 1e-9);
@@ -456,7 +456,7 @@ TEST(GodObject, RestsInTheCornerOfATrayAndNeverEntersIt) {
               kMicron);
     EXPECT_EQ(room.point->contacts().size(), 3u);
     for (const PointContact& c : room.point->contacts()) EXPECT_EQ(c.body, 0u);
-    // from inside, anywhere that the walls can hold
+    // pressed from inside, wherever the walls can hold the point
     Random random(5, "test");
     for (int i = 0; i < 2000; ++i) {
         const Vec3 h(random.uniform(-0.033, 0.033), random.uniform(-0.033, 0.033),

@@ -154,7 +154,7 @@ TEST(ImplicitCoupling, BetweenStepsTheForceFollowsTheHandWithinTheCone) {
         s.tick(finger, {{std::min(-0.05 + 0.1 * i * kStep, 0.0075), 0, 0}, Vec3::Zero()});
     EXPECT_NEAR(finger.force(s.world, {{0.0085, 0, 0}, Vec3::Zero()}, kStep).x(), -11, 0.01);
     EXPECT_EQ(finger.force(s.world, {{-0.01, 0, 0}, Vec3::Zero()}, kStep).norm(),
-              0);  // it must not pull
+              0);  // a wall must not pull
     const Vec3 across = finger.force(s.world, {{0.0075, 0.05, 0}, Vec3::Zero()}, kStep);
     EXPECT_NEAR(across.y(), -0.5 * -across.x(), 1e-9);  // it slides
 }
@@ -213,7 +213,7 @@ TEST(VelocityImpulse, IsBoundedByWhatTheHandMayFeel) {
     const double max_force = 2;
     Scene s;
     Finger finger(s.finger, s.proxy, velocity_impulse(k), max_force);
-    // in free space: far behind a handle that jumped, it follows with at most max_force
+    // in free space: far behind a handle that jumped, the proxy follows with at most max_force
     const double mass = kStep * kStep * k * 1.5;  // h^2 k + h c, c = k h / 2
     double v = 0;
     for (int i = 0; i < 5; ++i) {
@@ -222,7 +222,7 @@ TEST(VelocityImpulse, IsBoundedByWhatTheHandMayFeel) {
         EXPECT_NEAR(faster * mass / kStep, max_force, 1e-9);
         v += faster;
     }
-    // in touch: 10 mm deep, the spring would give 40 N
+    // in contact: at a depth of 10 mm, the spring would give 40 N
     for (int i = 0; i < 2000; ++i)
         s.tick(finger, {{std::min(-0.05 + 0.1 * i * kStep, 0.0075), 0, 0}, Vec3::Zero()});
     EXPECT_NEAR(finger.touch().normal_force, max_force, 1e-6);

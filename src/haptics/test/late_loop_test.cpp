@@ -8,8 +8,9 @@
 namespace dihaptic::haptics::late_loop_test {
 namespace {
 
-/// Whether a handle of 75 g in a hand of k_h and b_h, which presses a wall of stiffness k with
-/// damper k h / 2 at 1.5 N, comes to rest after a push of 1 mm, with a tick every T seconds.
+/// Whether a handle of 75 g in a hand of k_h and b_h, which presses with 1.5 N on a wall of
+/// stiffness k with a damper k h / 2, comes to rest after a push of 1 mm, with a tick every T
+/// seconds.
 bool comes_to_rest(double k, double T, double k_h, double b_h) {
     constexpr double kTick = 1e-3;
     constexpr double kStep = 1e-4;
@@ -102,7 +103,8 @@ TEST(BoundRise, FollowsTheSpringThatIsHeldAndFallsFreely) {
     EXPECT_EQ(bounded(2.1), -2.1);
     EXPECT_EQ(bounded(0.3), -0.3);
     EXPECT_EQ(bound_rise(Vec3::Zero(), last, deeper, k, 0.01), Vec3::Zero());
-    // on the way out the bound falls like the same spring, and so releases no more than it absorbed
+    // on the way out the bound falls like the force of the same spring, and so releases no more
+    // than it absorbed
     EXPECT_DOUBLE_EQ(bound_rise({-9, 0, 0}, last, -deeper, k, 0.01).x(), -(2 - 0.2 + 0.01));
     EXPECT_DOUBLE_EQ(bound_rise({-9, 0, 0}, last, -50 * deeper, k, 0.01).x(), -0.01);
 }

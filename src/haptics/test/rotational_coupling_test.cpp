@@ -90,7 +90,7 @@ TEST(RotationalCoupling, FollowsAHandleInFreeSpaceThatFeelsNothing) {
 }
 
 TEST(RotationalCoupling, IsTheSpringAndDamperOfTheStepsEndWhateverTheInertia) {
-    // backward Euler of I dw/dt = k r - c w about one axis, by hand
+    // backward Euler of I dw/dt = k r - c w about one axis, computed here
     frame::CouplingSettings settings;
     settings.turn_stiffness = 2;
     settings.turn_damping = 0.005;

@@ -121,7 +121,7 @@ TEST(Fault, SaysWhatWhichWhenAndWhatToDo) {
         const std::string text = describe({kind, 0, when}, "thumb", "Premium 1.0");
         EXPECT_NE(text.find("thumb"), std::string::npos) << text;
     }
-    // a text that cannot be formatted would throw just when force goes off
+    // a text that cannot be formatted would throw just when force is switched off
     for (int i = 1; i <= static_cast<int>(FaultKind::stopped); ++i) {
         for (const int device : {-1, 0}) {
             const Fault fault{static_cast<FaultKind>(i), device, when, 2, 1};

@@ -136,8 +136,8 @@ TEST_P(EveryShapeSolved, PressesAreFeltOutOfTheFaceThatWasEntered) {
                 continue;
             }
             ++pressed;
-            // the force leads straight out of the body, which is convex, from where the point was
-            // away from it
+            // from the point's last position the force leads straight away from the body, which is
+            // convex
             inward += surface.separation(before + 1e-3 * force_B.normalized()) < 0.999e-3;
             const Vec3 n = surface.normal(entered, before);
             const Vec3 foot =
@@ -171,7 +171,7 @@ TEST(SolvedPoint, NearABoxsCornerTheEnteredFaceIsKept) {
     const double depth = 0.01 + kSkin;
     EXPECT_LT((room.wait() - Vec3(0, 0, 1000 * depth)).norm(), 1e-6);
     EXPECT_LT((room.position() - Vec3(0.019, 0, 0.02 + kSkin)).norm(), 1e-8);
-    // beyond the edge it is free, and on re-entry the side is felt
+    // beyond the edge the point is free, and on re-entry the side is felt
     room.go({0.022, 0, 0.010});
     EXPECT_EQ(room.wait(), Vec3::Zero());
     room.go({0.012, 0, 0.010});
@@ -181,7 +181,7 @@ TEST(SolvedPoint, NearABoxsCornerTheEnteredFaceIsKept) {
 TEST(SolvedPoint, PushingThroughAThinWedgeIsFeltOutThroughTheFaceItCameBy) {
     Room room;
     room.add(thin_wedge());
-    const Vec3 n = Vec3(0.001, 0, 0.03).normalized();  // its upper face
+    const Vec3 n = Vec3(0.001, 0, 0.03).normalized();  // of the upper face
     for (const double stride : {1e-4, 0.028}) {        // slowly, and in a single tick
         room.start({0.015, 0.003, 0.01});
         room.go({0.015, 0.003, -0.008}, stride);
@@ -262,7 +262,7 @@ TEST(SolvedPoint, SticksUnderStaticFrictionAndSlidesAtDynamicFriction) {
     EXPECT_LT(room.position().head<2>().norm(), 1e-7);
     const Vec3 f = room.go({0.02, 0, -0.002 + kSkin});
     EXPECT_NEAR(f.x() / f.z(), -0.4, 1e-6);
-    // it comes to rest, and sticks again up to the static cone
+    // the point comes to rest, and sticks again up to the static cone
     room.wait();
     const double rest = room.position().x();
     room.go({rest + 0.00155, 0, -0.002 + kSkin}, 1e-5);
@@ -282,7 +282,7 @@ TEST(SolvedPoint, BetweenStepsOfTheWorldTheForceIsThatOfTheHandle) {
         const double f = room.follow(h).z();
         EXPECT_NEAR(f, std::max(0.0, 1000 * (kSkin - h.z())), 1e-6) << i;
     }
-    // while it sticks, the spring along the surface stays in the cone in every tick
+    // while the point sticks, the spring's force along the surface stays in the cone in every tick
     for (int i = 0; i < 100; ++i) {
         const Vec3 f = room.follow(room.handle.p_WH + Vec3(2e-4, 0, 0));
         EXPECT_LE(f.head<2>().norm(), f.z() * (1 + 1e-9)) << i;
@@ -304,7 +304,7 @@ TEST(SolvedPoint, ASurfaceThatIsPressedTooHardYieldsUntilThePointHasLeftIt) {
         room.go({0, 0, -0.02}, 1e-5);
         EXPECT_EQ(room.wait(), Vec3::Zero());
         EXPECT_LT((room.position() - Vec3(0, 0, -0.02)).norm(), 1e-9);
-        // bodies beyond are felt, and the box again once the point has been outside it
+        // bodies beyond the box are felt, and so is the box once the point has been outside it
         room.go({0, 0, -0.041}, 1e-5);
         EXPECT_NEAR(room.wait().z(), 1 + 1000 * kSkin, 1e-3);
         room.go({0.03, 0, -0.035}, 1e-5);

@@ -62,7 +62,7 @@ TEST(Surface, PathsEnterConesWhereTheyMeetThem) {
             const Vec3 to = 0.6 * size * random_vector(random);
             const Vec3 from = 2 * size * random_vector(random).normalized();
             expect_enters(cone, from, random.uniform(0.3, 2) * (to - from), entered);
-            // along a line of its side, and just next to it
+            // along a line of the cone's side, and just next to that line
             const double angle = random.uniform(0, 2 * std::numbers::pi);
             const Vec3 line(radius * std::cos(angle), radius * std::sin(angle), -height);
             const Vec3 beside = i % 2 == 0 ? Vec3(line) : Vec3(line + 1e-9 * to);

@@ -1,6 +1,6 @@
 // Solves grasps that vary in every parameter that an experiment may vary, a million solves in a
-// row, to count how often a solver falls back to another, and whether a solve ever misses its
-// tolerance.
+// row, to count how often a solver falls back to another, and to check whether a solve ever misses
+// its tolerance.
 //
 // The first, quick starts of newton (kNewtonStarts) were chosen on the first family, so that
 // family shows the fit, and the others test the choice. The seeds and ranges of the others were

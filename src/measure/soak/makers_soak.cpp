@@ -1,5 +1,5 @@
-// Tests that all of bench grasp through fakes of the makers' libraries gives the same figures as on
-// the simulated devices themselves. src/measure/test/makers_test.cpp has the main ones.
+// Tests that all figures of bench grasp are the same through fakes of the makers' libraries as on
+// the simulated devices themselves. src/measure/test/makers_test.cpp tests the main figures.
 #include "measure/test/alike.h"
 #include "measure/test/makers.h"
 

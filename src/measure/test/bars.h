@@ -99,8 +99,8 @@ inline void expect_hold_as_friction_says(contact::Solver solver, double friction
     setup.settings.coupling.stiffness = 1000;
     setup.friction = friction;
     setup.mass = mass;
-    // a hand gives way under a heavy block, and bobs: it rises higher by that much, and so slowly
-    // that "never 1 mm lower" tests the grip
+    // the hand gives way under a heavy block, and bobs: it is raised further by that amount, and
+    // slowly enough for "never 1 mm lower" to test the grip alone
     setup.rise_time = 2;
     const double load = mass * 9.81 / 2;
     setup.lift += model::series_spring_stretch(load, setup.impedance.stiffness, 1000);

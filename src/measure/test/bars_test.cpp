@@ -10,7 +10,7 @@ TEST(GraspBars, AreReached) {
 }
 
 /// Friction at the ends of 0.3 to 1.2, masses on both sides of what the grip can carry, and the
-/// lightest block; a soak has all solvers and the grid between.
+/// lightest block; a soak tests all solvers, and the grid in between.
 TEST(BenchGrasp, HoldsWhatFrictionHoldsAndDropsTheRest) {
     for (const double friction : {0.3, 1.2}) {
         const auto [held, dropped] = held_and_dropped(friction);
@@ -32,7 +32,7 @@ TEST(BenchGrasp, ShowsTheFaultsOfTheDualSpring) {
 TEST(BenchGrasp, SeesWhatIsNotHeld) {
     BenchSetup setup;
     setup.settings.coupling.stiffness = 1000;
-    setup.friction = 0.1;  // needs 4.9 N of grip, has 3.5
+    setup.friction = 0.1;  // the block needs 4.9 N of grip, and gets 3.5 N
     EXPECT_FALSE(measure_hold(setup).held);
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-/// Both kinds of proxy; a point's friction either together with the dynamics or apart.
+/// Both kinds of proxy; a point's friction is solved either together with the dynamics or apart.
 enum class Way { rigid, together, apart };
 class Felt : public ::testing::TestWithParam<Way> {
   protected:
@@ -143,7 +143,7 @@ TEST_P(Felt, ALongOnsetSoftensATouchAndKeepsItsForce) {
         EXPECT_EQ(kick.touch_step_n, 0);
         EXPECT_LE(kick.leave_pull_n, 0.005);
     }
-    EXPECT_TRUE(calm_wall(setup));  // at the force of the full stiffness
+    EXPECT_TRUE(calm_wall(setup));  // calm at the force of the full stiffness too
 }
 
 TEST(FeltByVelocityImpulse, TouchingLeavingFreeMotionAndHoldingAreClean) {
@@ -209,9 +209,9 @@ TEST_P(FeltByAPoint, StickingAndSlidingAreCoulombsLaw) {
 }
 
 TEST(FrictionApart, ShakesALightBlockLooseAt100HzWhereTogetherHoldsIt) {
-    // Apart, two explicit springs hold the block. On handles that stand still its tilt diverges
-    // when 2 K a^2 h^2 / I > 4, a being half its width, I = m (2 a)^2 / 6: at K 600 and h 10 ms
-    // below 45 g. Handles give way: 42 g is still held.
+    // With friction apart, two explicit springs hold the block. If the handles stand still, its
+    // tilt diverges when 2 K a^2 h^2 / I > 4, with a half its width and I = m (2 a)^2 / 6: below 45
+    // g at K 600 and h 10 ms. As handles give way, 42 g is still held.
     BenchSetup setup;
     setup.settings.proxy.kind = scene::ProxyKind::point;
     setup.settings.coupling.stiffness = 600;

@@ -35,7 +35,7 @@ TEST_P(HaplyGrasp, HasTheFiguresOfTheSimulatedDevices) {
     expect_near(haply.hf_force_n, simulated.hf_force_n);
     expect_near(haply.weight_ratio, simulated.weight_ratio);
     expect_near(haply.grip_ratio, simulated.grip_ratio);
-    EXPECT_GT(service->received().size(), 9000u);  // the figures came this way
+    EXPECT_GT(service->received().size(), 9000u);  // the figures came through the service
 }
 INSTANTIATE_TEST_SUITE_P(Bench, HaplyGrasp, ::testing::Values(Fingering::ideal, Fingering::real));
 

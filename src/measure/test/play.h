@@ -93,9 +93,9 @@ struct PlayReport {
     double largest_force = 0;     ///< largest force sent [N]
     double largest_change = 0;    ///< largest change of a force from tick to tick [N]
     double fastest = 0;           ///< largest speed of an object [m/s]
-    double hand_work = 0;         ///< most work that the fingers gave to objects, with losses [J]
+    double hand_work = 0;         ///< most work that the fingers can have done on objects [J]
     double energy_made = 0;       ///< rise of the objects' energy beyond that, summed [J]
-    double energy_made_once = 0;  ///< most of that in one tick [J]
+    double energy_made_once = 0;  ///< largest such rise in one tick [J]
     uint32_t status = 0;          ///< all status bits that occurred
     int64_t missed = 0;           ///< ticks in which the solver missed its tolerance
     int64_t fallbacks = 0;

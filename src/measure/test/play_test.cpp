@@ -1,4 +1,4 @@
-// Tests a few seconds of play with every solver; src/measure/soak/play_soak.cpp has ten minutes.
+// Tests a few seconds of play with every solver; src/measure/soak/play_soak.cpp tests ten minutes.
 #include "measure/test/play.h"
 
 #include "measure/test/bars.h"

@@ -105,7 +105,7 @@ TEST(TwoRate, ForgetsALittleInACatchTrialAndAllInALongWashout) {
     add(trials, 1, {0});
     add(trials, 1, {30});
     const auto x = compensation(kSmith2006, trials);
-    // a catch trial does not change the output in that trial, but in the next
+    // a catch trial does not change the output in that trial, but does in the next
     EXPECT_GT(x[100], x[99]);
     EXPECT_LT(x[101], x[100]);
     add(trials, 400, {0});

@@ -1,5 +1,5 @@
 // Tests the shipped population on schedules to which nothing was calibrated. README.md describes
-// people's behaviour there, and the rules that these tests apply.
+// people's behaviour in them, and the rules that these tests apply.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -125,7 +125,7 @@ TEST(Schedule, OfAnterogradeInterference) {
     const bool slower = after_112.mean > 2 * after_112.error;
     const bool longer = after_13.mean < after_112.mean;
     const bool level = std::abs(after_230.mean - after_112.mean) < after_112.mean - after_13.mean;
-    fmt::print("B slower {}, the more the longer {}, levels off {}\n", slower ? "ok" : "FAILS",
+    fmt::print("B slower {}, more so after a longer A {}, levels off {}\n", slower ? "ok" : "FAILS",
                longer ? "ok" : "FAILS", level ? "ok" : "FAILS");
     EXPECT_TRUE(slower);
     EXPECT_TRUE(longer);

@@ -52,7 +52,8 @@ TEST(Forces, OfAPersonWithoutNoisePressAgainstAChannelAsTheTwoRateModelSays) {
         most = std::max(most, x[i]);
         if (reach.perturbed == "channel") {
             EXPECT_NEAR(reach.index, x[i], 0.04);
-            // the force follows the course of the speed, unlike that of a hand that goes elsewhere
+            // the force follows the course of the speed, which it would not do if the hand aimed
+            // elsewhere
             if (x[i] > 0.3) {
                 EXPECT_GT(reach.likeness, 0.97);
             }
@@ -105,7 +106,8 @@ TEST(Forces, AreLearnedAsForcesAndRotationsAsRotations) {
 
     const auto [both_turn, both_force] = learned("turned curl");
     EXPECT_NEAR(both_turn.z(), of_turn, 2 * kDegree);
-    // after learning, the hand goes to the right of the way, and so does the force that pushes it
+    // after learning, the hand moves to the right of the way, so the force that pushes it is turned
+    // as well
     EXPECT_NEAR(both_force.norm(), kCurl * of_force, 0.15 * kCurl);
 }
 
@@ -120,7 +122,7 @@ TEST(Forces, GeneraliseByAGaussianOfTheDirection) {
                                     &yields);
     const auto x = two_rate_index(traits, reaches, yields);
     EXPECT_NEAR(reaches[31].index, x[31], 0.04);
-    // the push that was learned is the same in space, and less of it is across the other way
+    // the learned push has the same direction in space, so only part of it is across the other way
     const double angle = kTurnedTarget * kDegree;
     const double share =
         std::exp(-std::pow(angle / traits.force_generalisation, 2) / 2) * std::cos(angle);

@@ -11,7 +11,8 @@ inline constexpr double kCurl = 13;          // damping of the field [N*s/m]
 inline constexpr double kChannel = 2000;     // stiffness of the walls [N/m]
 inline constexpr double kTurnedTarget = 45;  // direction of the condition 'turned' [degrees]
 
-/// Reaches of 100 mm in the plane, away from the person; in the condition 'turned' toward its left.
+/// Reaches of 100 mm in the plane, away from the person; in the condition 'turned', 45 degrees
+/// further to the left.
 inline std::string force_task(const std::string& blocks) {
     return R"(  perturbations:
     - name: curl
@@ -50,7 +51,7 @@ inline std::string force_task(const std::string& blocks) {
 struct ForceReach {
     std::string perturbed;  ///< name of the perturbation; empty: none
     double index = NAN;     ///< regression of the force across the way on b v, through zero
-    double likeness = NAN;  ///< correlation of the two, not about their means
+    double likeness = NAN;  ///< correlation of the two, means not subtracted
     double deviation = 0;   ///< largest distance from the way, with its sign, to the left [m]
 };
 
@@ -95,8 +96,8 @@ inline double yielding(const session::Plan& plan) {
     return k / (k + kChannel);
 }
 
-/// Index in each trial, according to the model of adaptation: a channel shows only how far it
-/// yields.
+/// Index in each trial, according to the model of adaptation: in a channel, the error is only the
+/// yielding of its walls.
 template <class Rates, class State>
 std::vector<double> model_index(const Rates& rates, State state, auto&& output,
                                 const std::vector<ForceReach>& reaches, double yields) {

@@ -238,7 +238,7 @@ TEST(Lifts, OfRealObjectsHaveTheFiguresOfPeople) {
         if (lift.mass == 0.4 && before > 0.4) after_heavier.push_back(rate);
         const double off = lift.off - lift.onset;
         if (before < lift.mass) {
-            EXPECT_GT(off, 0.25);  // the load force is increased in steps until it comes off
+            EXPECT_GT(off, 0.25);  // the load force rises in steps until the object comes off
         } else if (before == lift.mass && i > 1) {
             EXPECT_GT(off, 0.1);  // 150 to 400 ms, from a load of zero
             EXPECT_LT(off, 0.65);

@@ -1,4 +1,4 @@
-// Tests that a rehearsal says where simulated people have no model of what is asked.
+// Tests that a rehearsal warns of demands for which simulated people have no model.
 #include "person/simulated_limits.h"
 
 #include <gtest/gtest.h>

@@ -36,7 +36,7 @@ TEST(Eyes, SeeWhereThingsAreShownAWhileAgo) {
     EXPECT_EQ(eyes.sight().target[3], Vec3(0, 0, 1));
     frame.task.looks = {{0, 1, -1, 1}};
     for (int i = 0; i <= 100; ++i) eyes.take(frame);
-    EXPECT_TRUE(eyes.sight().hand_shown);  // by the other finger
+    EXPECT_TRUE(eyes.sight().hand_shown);  // shown by the other finger
     frame.task.looks.push_back({1, 1, -1, 1});
     for (int i = 0; i <= 100; ++i) eyes.take(frame);
     EXPECT_FALSE(eyes.sight().hand_shown);

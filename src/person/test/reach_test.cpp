@@ -107,7 +107,7 @@ TEST(Reaches, OfANoisyPersonGiveBackItsRates) {
     double off = 0;
     for (size_t i = 0; i < truth.size(); ++i) off += std::pow(fit.predicted[i] - truth[i], 2);
     off = std::sqrt(off / static_cast<double>(truth.size()));
-    // noise is learned too, so that the true curve is known only to about its own wandering
+    // noise is learned too, so that the true curve is known only to within its own random changes
     EXPECT_LT(off, 0.5 * fit.residual_sd);
     EXPECT_NEAR(fit.residual_sd, traits.direction_noise / kDegree, 1.5);
     const auto within = [](double value, const analysis::Interval& interval) {
@@ -166,7 +166,7 @@ TEST(Reaches, BeginAReactionTimeAfterTheTargetAndLastAsTheTempoSays) {
         const double now = seconds(frame.time);
         const double way = (frame.fingers[0].p_WH - Vec3(0, -0.04, 0.12)).norm();
         if (shown[i] < 0) shown[i] = now;
-        // minimum jerk: 1 % and half of the way at 0.101 and 0.5 of its time
+        // minimum jerk covers 1 % of the way in 0.101 of its time, and half of it in 0.5
         if (begun[i] < 0 && way > 1e-3) begun[i] = now;
         if (over[i] < 0 && way > 50e-3) over[i] = now;
     });

@@ -44,7 +44,7 @@ inline Curve reaches(const session::Plan& plan) {
     return curve;
 }
 
-/// The plan's schedule as the models of adaptation take it.
+/// The plan's schedule in the form that the models of adaptation take.
 inline std::vector<model::AdaptationTrial> schedule(const session::Plan& plan) {
     std::vector<model::AdaptationTrial> out;
     for (const task::Trial& trial : plan.task->trials) {

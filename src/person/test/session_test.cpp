@@ -71,7 +71,8 @@ TEST(Session, OfTwoPeopleHasBothWithTheirTraitsAndReplaysToTheBit) {
     const Node node = read_yaml(folder + "/person.yaml");
     ASSERT_NE(node.find("partner"), nullptr);
     EXPECT_EQ(node.find("partner")->find("id")->scalar, "S02");
-    // each hand moves by its own person: with another partner only the second differs at first
+    // each hand is moved by its own person: with another partner, only the second hand starts
+    // differently
     const auto first_moves = [](const std::string& session) {
         std::array<double, 2> out{-1, -1};
         recording::RawLogReader log(session + "/raw.log");
@@ -199,7 +200,8 @@ TEST(Session, GoesOnWithAPersonWhoGivesUpOrHesitates) {
     EXPECT_GE(done, 6);
 }
 
-/// Answers to "Was it shown larger than it felt?" by keys y and n, after reaches shown scaled.
+/// Answers to "Was it shown larger than it felt?" by keys y and n, after reaches that are shown
+/// scaled.
 std::vector<std::string> answers(double scale, const Traits& traits, int trials) {
     Sitting sitting("rotation-reversal");
     sitting.end_with("  perturbations:", fmt::format(R"(  perturbations:

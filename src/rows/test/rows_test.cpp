@@ -61,7 +61,7 @@ TYPED_TEST(RowTest, IsReadAsItWasWritten) {
             if (number == nullptr || std::isnan(*number)) {
                 EXPECT_EQ(to_csv(a), to_csv(b)) << written.columns[i].name;
             } else {
-                constexpr double kDigits = 1e-8;  // tables have nine
+                constexpr double kDigits = 1e-8;  // tables contain nine digits
                 EXPECT_NEAR(*number, std::get<double>(b), kDigits * std::abs(*number))
                     << written.columns[i].name;
             }

@@ -367,7 +367,8 @@ INSTANTIATE_TEST_SUITE_P(
             "experiment.yaml:3: error: name: 'thumb' is given twice"},
         Bad{"tremor's band upside down",
             [](Files& f) { f.experiment += "hand: {tremor: {low_Hz: 20, high_Hz: 10}}\n"; },
-            "experiment.yaml:3: error: tremor: its band goes from 20 Hz down to 10 Hz"},
+            "experiment.yaml:3: error: tremor: its lowest frequency, 20 Hz, is above its highest, "
+            "10 Hz"},
         Bad{"negative aperture",
             [](Files& f) {
                 f.experiment += "hand: {script: [{name: a, duration_s: 1, aperture_mm: -5}]}\n";
@@ -449,7 +450,7 @@ INSTANTIATE_TEST_SUITE_P(
                 f.folder.write("m.csv", text);
                 f.experiment += "movement: {file: m.csv, axes: y_up, block: block}\n";
             },
-            "m.csv:1: error: index: the movement has no such finger, but thumb"},
+            "m.csv:1: error: index: the movement has no such finger; it has thumb"},
         Bad{"a grasp after the end",
             [](Files& f) {
                 f.folder.write("m.csv", testing::read_file("movements/reach-to-grasp.csv"));

@@ -188,8 +188,8 @@ TEST(PsychometricFit, IntervalsHoldTheFit) {
     EXPECT_LE(found.lapse.high, 0.05);
 }
 
-/// Of answers far from the threshold, no lapse rate above the share of wrong ones can be made good
-/// by the other parameters: there the profile is the likelihood of the binomial.
+/// If all answers are far from the threshold, the other parameters cannot make up for a lapse rate
+/// above the share of wrong answers: there, the profile is the likelihood of a binomial.
 TEST(PsychometricFit, AnIntervalEndsWhereTheLikelihoodHasFallenByHalfOfChiSquared) {
     constexpr int kTrials = 1000;
     constexpr int kRight = 980;

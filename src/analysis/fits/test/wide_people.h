@@ -18,13 +18,13 @@ namespace dihaptic::analysis {
 
 struct WideResult {
     int above_truth = 0;      ///< number of people whose fit is worse than their true parameters
-    double worst_start = 0;   ///< largest amount by which a start led below the fit, relative to it
+    double worst_start = 0;   ///< largest relative improvement on the fit from any start
     double milliseconds = 0;  ///< processor time of a fit with its intervals [ms]
 };
 
-/// Half of the people are spread somewhat wider than published ones; the other half come from
-/// anywhere where learning does not diverge by growing overshoots. Residuals have a standard
-/// deviation of 0.5 to 12 degrees. `starts`: number of searches from random places.
+/// Half of the people are spread somewhat more widely than published people; the other half come
+/// from the whole range in which learning does not diverge in growing overshoots. Residuals have a
+/// standard deviation of 0.5 to 12 degrees. `starts`: number of searches from random places.
 inline WideResult fit_wide_people(int people, int starts, uint64_t seed) {
     using model::TwoRate;
     Random random(seed, "wide people");

@@ -170,7 +170,7 @@ TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
         find_generalisation(rows::TrialFile(folder.write("trials.csv", trials)), reaches);
     ASSERT_EQ(found.size(), 5u);
     const double angles[] = {-45, 0, 0, 45, 90};
-    const double all = (1 + 1 + 1 + 3) / 4.0;  // baseline of those without their own
+    const double all = (1 + 1 + 1 + 3) / 4.0;  // baseline of directions without their own
     const double trained = (20 + 21 - all) / 2;
     const double compensations[] = {5 - all, 20, 21 - all, 9, 2};
     const char* const baselines[] = {"all conditions", "its condition", "all conditions",
@@ -226,7 +226,7 @@ TEST(Thresholds, AreFittedToTheAnswersOfTheirProcedure) {
     EXPECT_GT(tracks[0].answers.size(), 300u);
     EXPECT_EQ(tracks[1].answers.size(), 0u);
     EXPECT_FALSE(fit_threshold(tracks[1]).fit);
-    EXPECT_EQ(fit_threshold(tracks[1]).note, "not possible: 0 answers, and a fit takes 10");
+    EXPECT_EQ(fit_threshold(tracks[1]).note, "not possible: 0 answers, but a fit requires 10");
     const ThresholdFit found = fit_threshold(tracks[0]);
     const auto& fitted = found.fit;
     ASSERT_TRUE(fitted);
@@ -311,8 +311,8 @@ TEST(Adaptation, WindowsAreOfOneBlockEach) {
     };
     const auto at = curve.windows();
     EXPECT_NEAR(at.early.mean, mean(12, 8), 1e-9);
-    EXPECT_NEAR(at.late.mean, mean(64, 8), 1e-9);         // not the reversal's
-    EXPECT_NEAR(at.clamp_first.mean, mean(95, 8), 1e-9);  // not the inserted clamps
+    EXPECT_NEAR(at.late.mean, mean(64, 8), 1e-9);         // without the reversal's trials
+    EXPECT_NEAR(at.clamp_first.mean, mean(95, 8), 1e-9);  // without the inserted clamps
     EXPECT_NEAR(at.clamp_last.mean, mean(107, 8), 1e-9);
     EXPECT_NEAR(at.washout_first.mean, mean(115, 8), 1e-9);
     EXPECT_EQ(at.early.trials, 8);
@@ -504,7 +504,8 @@ TEST(Adaptation, ToAMassIsThatOfTheErrorsInEachDirection) {
         EXPECT_NEAR(curve.perturbation(), 100, 1e-9);
         const auto at = curve.windows();
         EXPECT_NEAR(at.baseline.mean, 0, 3);
-        EXPECT_NEAR(at.late.mean, 70, 7);  // 75 = 15 / (15 + 5), less what catch trials take back
+        EXPECT_NEAR(at.late.mean, 70,
+                    7);  // 75 % = 15 / (15 + 5), less the loss in catch trials
         EXPECT_GT(at.catch_trials.mean, 50);
         const auto fits = fit_adaptation(curve);
         ASSERT_TRUE(fits);
@@ -513,7 +514,7 @@ TEST(Adaptation, ToAMassIsThatOfTheErrorsInEachDirection) {
         EXPECT_LT(fits->single_rate.learning.low, 0.15);
         EXPECT_GT(fits->single_rate.learning.high, 0.15);
     }
-    // an error that the perturbation does not change shows nothing, and says so
+    // an error that the perturbation does not change shows no learning, and a note says so
     const auto none =
         error_curves(rows::TrialFile(folder.write("none.csv", errors_of(0, 1))), "deviation_mm");
     for (const AdaptationCurve& curve : none) {
