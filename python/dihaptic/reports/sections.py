@@ -92,7 +92,10 @@ def _methods(page: Page, data: Data, told: dict[str, Any]) -> None:
         page.text(text)
     perturbations = told.get("perturbations") or {"columns": [], "rows": []}
     table = pd.DataFrame(perturbations["rows"], columns=perturbations["columns"])
-    page.table(table, "Perturbations; the column share of trials.csv states how much of each acts.")
+    caption = "Perturbations; the column share of trials.csv states how much of each acts."
+    if "in" in table and table["in"].nunique() > 1 and (table["in"] == "").any():
+        caption += " A row with nothing under \"in\" holds wherever no other row of that perturbation replaces it."
+    page.table(table, caption)
 
 
 def _nothing(page: Page, data: Data) -> None:
