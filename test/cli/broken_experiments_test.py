@@ -138,7 +138,7 @@ MISTAKES = [
     ("to: score + 1 }", "to: scor + 1 }", "to", "Did you mean score?"),
     ("to: score + 1 }", "to: score + 1 mm }",
      "to", "Give both sides the same dimension, and numbers their unit (5 mm, 200 ms, 2 N)"),
-    ("to: score + 1 }", "to: score > 1 }", "to", "Convert a condition to a number with if, e.g. 10 if side > 0 else 20"),
+    ("to: score + 1 }", "to: score > 1 }", "to", "Convert a condition to a number with 'if', e.g. 10 if side > 0 else 20"),
     ("to: score + 1 }", "to: score + }", "to", "Complete the expression"),
     ('when: outcome == "reached"', 'when: outcome == "reachd"', "when", "Did you mean"),
     ("time_in_trial < 800 ms", "time_in_trial < 800 mm",

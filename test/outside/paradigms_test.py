@@ -112,7 +112,7 @@ class Paradigms(unittest.TestCase):
   blocks: [{ name: a, repeats: 1 }]
 """)).stdout
         self.assertIn("held_from: 'b' is not a state", said)
-        self.assertIn("held_from: is only used by cursor: held", said)
+        self.assertIn("held_from: is used only with 'cursor: held'", said)
 
     def test_a_person_who_sees_only_the_end_of_a_reach_stays_in_the_room_and_its_error_counts(self):
         """The reach is cut off at the target's distance, as in most studies of end-point feedback."""

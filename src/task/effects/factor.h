@@ -10,7 +10,7 @@ namespace dihaptic::task {
 
 inline const FormulaVec3 kNoFactors{1, 1, 1};
 
-/// The effective factor at a share.
+/// The effective factor at a given share.
 inline double part_of(double share, double factor) noexcept {
     return 1 + share * (factor - 1);
 }
@@ -18,7 +18,7 @@ inline Vec3 part_of(double share, const Vec3& factors) noexcept {
     return Vec3::Ones() + share * (factors - Vec3::Ones());
 }
 
-/// The number in this unit, or the text of its formula.
+/// The number in the given unit, or the text of its formula.
 std::string in_words(const Formula& number, double unit = 1);
 std::string in_words(const FormulaVec3& v);
 /// Adds "WHAT factor times" unless the factor is 1.

@@ -14,7 +14,7 @@ Perturbation::Perturbation(const PerturbationSpec& spec, const Names& names,
     });
     profile_ = spec.profile;
     if (profile_ && profile_->fall > 0 && !profile_->plateau) {
-        diagnostics.error(profile_->place, "fall", "has no effect without plateau",
+        diagnostics.error(profile_->place, "fall", "has no effect without a plateau",
                           "Add e.g. plateau_ms: 100, the time between rise and fall.");
     }
     check_hed(spec.hed, spec.place, diagnostics);

@@ -26,17 +26,17 @@ struct State;
 /// Any combination of a visual map, properties of a body and a joint, and loads, under one name.
 struct PerturbationSpec {
     std::string name;
-    Refs<State> during;  ///< states in which it acts; empty: all with perturbed: yes
+    Refs<State> during;  ///< states in which the perturbation acts; empty: all `perturbed` ones
     std::optional<Profile> profile;
     std::optional<VisualSpec> visual;
     std::optional<BodySpec> body;
     std::optional<JointSpec> joint;
     std::optional<LoadSpec> field;  ///< the only load, or the first one
     std::vector<LoadSpec> loads;
-    std::string hed;  ///< HED tags of its beginning
+    std::string hed;  ///< HED tags of the perturbation's beginning
     Place place;
 
-    /// Calls f(effect) for each of its effects.
+    /// Calls f(effect) for each of the perturbation's effects.
     template <class F>
     void each_effect(F f) const {
         if (visual) f(*visual);
@@ -55,9 +55,11 @@ struct PerturbationSpec {
     void visit(Visitor& v) {
         v("name", name, Field::text().required().says("Name of the perturbation."));
         v("during", during,
-          says("States in which it acts; all but those with perturbed: no if omitted."));
+          says("States in which the perturbation acts; if omitted, all except those with "
+               "'perturbed: no'."));
         v("profile", profile,
-          says("Time course within a trial; if omitted, it acts at once and throughout."));
+          says("Time course within a trial; if omitted, the perturbation acts at once and "
+               "throughout."));
         v("visual", visual, says("Difference between displayed and true motion."));
         v("body", body, says("Change in a body's properties."));
         v("joint", joint, says("Change in a joint's properties."));
@@ -68,7 +70,7 @@ struct PerturbationSpec {
     }
 };
 
-/// Whether it confines a handle or a body to a line or plane.
+/// Whether the perturbation confines a handle or a body to a line or plane.
 inline bool is_channel(const PerturbationSpec& spec) {
     const std::vector<LoadSpec> loads = spec.all_loads();
     return std::any_of(loads.begin(), loads.end(),
@@ -83,24 +85,24 @@ class Perturbation {
     Perturbation(const PerturbationSpec& spec, const Names& names, const scene::Scene& scene,
                  Diagnostics& diagnostics);
 
-    /// Factor on its share at time `t` since entry into its first state [s].
+    /// Factor on the perturbation's share at time `t` since entry into its first state [s].
     double share_at(double t) const noexcept { return profile_ ? profile_->share(t) : 1; }
     /// Adds the perturbation's commands to `out`. `regions_W`: centres of the regions [m].
     void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                frame::TaskFrame& out) const noexcept;
-    /// Matrix from velocity to the force of its loads at share 1 [N*s/m]; zero for channels and
-    /// springs.
+    /// Matrix from velocity to the force of the perturbation's loads at share 1 [N*s/m]; zero for
+    /// channels and springs.
     Mat3 field_gain() const;
-    /// Axis of its rotation, or of its first curl field; nullopt if it has neither.
+    /// Axis of the perturbation's rotation, or of its first curl field; nullopt if it has neither.
     std::optional<Vec3> axis() const;
     bool has_map() const { return !of<VisualEffect>().empty(); }
     std::span<const Load> loads() const { return of<Load>(); }
-    /// Upper bound of its visual delay [s].
+    /// Upper bound of the perturbation's visual delay [s].
     double longest_delay() const { return has_map() ? of<VisualEffect>()[0].longest_delay() : 0; }
-    /// The body's properties at share 1; unset if it changes no body.
+    /// The body's properties at share 1; unset if the perturbation changes no body.
     std::optional<frame::PropertiesFrame> properties() const;
 
-    /// Formulas among the numbers of its effects.
+    /// Visits the formulas of the perturbation's effects.
     template <class Visitor>
     void visit(Visitor& v) {
         each_effect(*this, [&](auto& effect) { effect.visit(v); });

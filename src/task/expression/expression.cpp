@@ -15,14 +15,14 @@ namespace dihaptic::task {
 namespace {
 
 constexpr size_t kLongestText = 2000;
-constexpr int kDeepestText = 40;  // depth of nested brackets
+constexpr int kDeepestText = 40;  // maximum depth of nested brackets
 
 constexpr std::array kWords{"and", "or", "not", "if", "else"};
 
 }  // namespace
 
 /// Parses the text by precedence, checks the types of its parts, and builds the program. Throws
-/// faults.
+/// Fault on a mistake.
 class Compiler : Parts {
   public:
     using Parts::remarks_;
@@ -67,7 +67,7 @@ class Compiler : Parts {
         return token.kind == Token::Kind::number ? fmt::format("{}", token.value) : token.text;
     }
 
-    // grammar, from the lowest precedence
+    // grammar, starting with the lowest precedence
 
     Value choice() {
         if (++depth_ > kDeepestText)
@@ -82,7 +82,7 @@ class Compiler : Parts {
             Value b = choice();
             if (a.type != b.type)
                 throw Fault{column, fmt::format("is either {} or {}", what(a), what(b)),
-                            "Make both the same kind."};
+                            "Give both branches the same kind of value."};
             match(a, b, column);
             a.literal = a.literal && a.type == Type::number;
             if (a.levels != b.levels) a.levels = nullptr;
@@ -303,8 +303,8 @@ class Compiler : Parts {
         }
         return number(constant(value), dimension, first.column);
     }
-    /// 700 ms is exactly the double 0.7 s: for integer fractions of the SI unit, the number is
-    /// divided.
+    /// The value in the SI unit. A unit that is an integer fraction of the SI unit divides the
+    /// number, so that 700 ms is exactly the double 0.7.
     static double in_si(double value, double unit) {
         const double parts = std::round(1 / unit);
         return parts > 1 && unit == 1 / parts ? value / parts : value * unit;
@@ -492,7 +492,7 @@ class Compiler : Parts {
         throw Fault{column, fmt::format("'{}' is neither a finger nor a hand", thing_),
                     "Name a finger or a hand, or leave the argument out."};
     }
-    /// A number after a comma, or the default.
+    /// A number after a comma, or `value` if there is no comma.
     Value number_argument(double value, const Dimension& dimension) {
         if (!take(",")) return number(constant(value), dimension, token().column);
         Value out = choice();
@@ -601,7 +601,7 @@ class Compiler : Parts {
     Value look_back(const Token& name, LookBack::Statistic statistic) {
         if (!quantities_.looks_back()) {
             throw Fault{name.column, fmt::format("'{}' looks back over trials", name.text),
-                        "Use it in after_trial, to set a variable, and use that variable here."};
+                        "Set a variable to it in after_trial, and use that variable here."};
         }
         const Value of = choice();
         demand(of, Type::number);
@@ -615,7 +615,7 @@ class Compiler : Parts {
         note(Kind::figure);
         return number(slot(out.slot), of.dimension, name.column);
     }
-    /// The number of trials after a comma.
+    /// The number of trials, which follows a comma.
     size_t trials_argument(const Token& name) {
         const size_t column = token().column;
         if (!take(","))

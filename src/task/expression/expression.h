@@ -4,10 +4,10 @@
 //     0.5 + wait if trial_num > 10 else 200 ms                 a number
 //
 // Every number has a dimension. A number without a unit adopts the SI unit of the quantity to which
-// it is added or with which it is compared; names, and numbers with a unit, have their own.
-// Operators have the precedence of Python, with ^ for powers, and a < b < c tests both comparisons;
-// % has the sign of its right side. Vectors can be added, subtracted, and multiplied by numbers.
-// Texts can only be compared with == and !=. Functions:
+// it is added or with which it is compared; names, and numbers with a unit, have their own
+// dimensions. Operators have the precedence of Python, with ^ for powers, and a < b < c tests both
+// comparisons; % has the sign of its right side. Vectors can be added, subtracted, and multiplied
+// by numbers. Texts can only be compared with == and !=. Functions:
 //
 //     abs min max sqrt exp log sin cos tan atan2 hypot floor ceil round sign clamp
 //     norm(v) distance(a, b) dot(a, b)
@@ -41,8 +41,9 @@ class Expression {
     static Expression compile(std::string_view text, Quantities& quantities, const Place& place,
                               std::string_view key, Diagnostics& diagnostics);
 
-    /// Compiles an expression that must have the unit of a quantity, which `what` describes; empty
-    /// for an empty text. The error for another unit has `example` as its remedy.
+    /// Compiles an expression that must have the unit of a quantity, which `what` describes; an
+    /// empty text gives an empty expression. The error message for any other unit suggests
+    /// `example` as the remedy.
     static Expression compile_of(Quantity quantity, const char* what, std::string_view text,
                                  Quantities& quantities, const Place& place, std::string_view key,
                                  const std::string& example, Diagnostics& diagnostics);
@@ -52,20 +53,20 @@ class Expression {
     enum class Type { number, truth, text };
     Type type() const { return type_; }
     Dimension dimension() const { return dimension_; }
-    /// Whether it changes within a session only with the list of trials.
+    /// Whether the value depends only on the list of trials.
     bool frozen() const { return latest_ <= Kind::region; }
-    /// Whether it depends only on the list of trials and on levels of procedures.
+    /// Whether the value depends only on the list of trials and on levels of procedures.
     bool foreseen() const { return latest_ <= Kind::level; }
-    /// Whether it depends on quantities measured in the tick.
+    /// Whether the value depends on quantities measured in the tick.
     bool follows_tick() const { return latest_ == Kind::tick; }
-    /// Whether it uses the value in the slot.
+    /// Whether the expression uses the value in the slot.
     bool names(int slot) const;
 
-    /// `values`: of the Quantities with which it was compiled, or of a copy.
+    /// `values`: those of the Quantities with which the expression was compiled, or a copy of them.
     double operator()(std::span<const double> values) const noexcept;
 
-    /// The statistics over earlier trials that it names, each after those that it depends on.
-    /// The caller sets their slots before evaluating it.
+    /// The statistics over earlier trials that the expression uses, each after those that it
+    /// depends on. The caller sets their slots before evaluating the expression.
     const std::vector<LookBack>& look_backs() const;
 
   private:
@@ -77,20 +78,20 @@ class Expression {
     struct Step {
         Function function = nullptr;
         int arguments = 0;
-        int slot = -1;     // without a function: slot of the value; -1: the constant
+        int slot = -1;     // without a function: slot of the value, or -1 for the constant
         double value = 0;  // the constant
     };
 
     std::vector<Step> program_;
     Type type_ = Type::number;
     Dimension dimension_;
-    Kind latest_ = Kind::draw;                                 // latest kind among its quantities
+    Kind latest_ = Kind::draw;                                 // latest kind among the quantities
     std::shared_ptr<const std::vector<LookBack>> look_backs_;  // null: none
 };
 
 /// A statistic of an expression's values at the ends of the last trials: mean(x, 10), median(x,
-/// 10), sd(x, 10), best(x). An attempt that is to be repeated does not count, nor does an
-/// unmeasured value.
+/// 10), sd(x, 10), best(x). Attempts that are to be repeated are left out, and so are unmeasured
+/// values.
 struct LookBack {
     enum class Statistic { mean, median, sd, best };
     static constexpr size_t kMost = 1000;
@@ -98,7 +99,7 @@ struct LookBack {
     Expression of;
     Statistic statistic = Statistic::mean;
     size_t count = 0;  ///< number of trials; 0: all of them, for best
-    int slot = -1;     ///< of its value
+    int slot = -1;     ///< slot of the statistic's value
 };
 
 }  // namespace dihaptic::task

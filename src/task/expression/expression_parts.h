@@ -23,8 +23,8 @@ class Parts {
     struct Value {
         Type type = Type::number;
         Dimension dimension;
-        bool literal = false;  // adopts the dimension of the other operand; a text: quoted
-        std::array<int, 3> node{-1, -1, -1};  // of a vector's components; otherwise the first
+        bool literal = false;  // adopts the dimension of the other operand; for a text: quoted
+        std::array<int, 3> node{-1, -1, -1};  // of each component of a vector; else only the first
         size_t column = 1;
         const std::vector<std::string>* levels = nullptr;  // possible values of a text
     };
@@ -47,7 +47,7 @@ class Parts {
         const Node& n = nodes_[static_cast<size_t>(node)];
         return n.operation.function == nullptr && n.slot < 0;
     }
-    /// The slot that is the whole of the node; -1 if it is computed, or a constant.
+    /// The slot that the node reads; -1 if the node is computed or a constant.
     int slot_in(int node) const {
         const Node& n = nodes_[static_cast<size_t>(node)];
         return n.operation.function == nullptr ? n.slot : -1;
@@ -155,7 +155,7 @@ class Parts {
     Dimension raised(const Value& base, const Value& exponent) const {
         if (!is_constant(exponent.node[0]))
             throw Fault{exponent.column,
-                        fmt::format("the exponent of a value that is {} varies", what(base)),
+                        fmt::format("the base is {}, but the exponent varies", what(base)),
                         "Write a number as the exponent."};
         return raised(base, constant_of(exponent.node[0]));
     }
@@ -173,12 +173,12 @@ class Parts {
         return {times(base.dimension.m), times(base.dimension.kg), times(base.dimension.s)};
     }
 
-    std::vector<Fault> remarks_;  // on valid but probably unintended text
+    std::vector<Fault> remarks_;  // warnings about valid but probably unintended text
 
   private:
     static constexpr size_t kLongestProgram = 1000;  // largest number of steps
 
-    /// A value beyond the range of hands, for a quantity that is often given in a smaller unit.
+    /// A value too large for hand movements, for a quantity that is often given in a smaller unit.
     struct Scale {
         Quantity quantity;
         double much;  // [SI]

@@ -20,7 +20,7 @@ inline double norm_of(const double* a) noexcept {
     return Vec3(a[0], a[1], a[2]).norm();
 }
 
-/// A function of numbers; the arguments are in order.
+/// A function of an array of numbers, and how many it takes.
 struct Operation {
     int arguments;
     double (*function)(const double* arguments) noexcept;
@@ -54,8 +54,9 @@ inline constexpr Operation kMax{2,
 inline constexpr Operation kSquareRoot{1, [](const double* a) noexcept { return std::sqrt(a[0]); }};
 inline constexpr Operation kNorm{3, norm_of};
 
-/// Rule for the dimension of a function's arguments, which must be equal. The value has the same
-/// dimension; half of it; none; or the arguments must be pure numbers.
+/// Rule for the dimensions of a function's arguments, which must all be equal. The value has the
+/// same dimension (same), the dimension of the square root (root), or none (any); or else the
+/// arguments must be pure numbers (pure).
 enum class Takes { same, root, any, pure };
 
 struct NamedFunction {

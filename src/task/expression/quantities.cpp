@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kComponent = sizeof(double);  // distance between components of a vector [bytes]
 
-/// The part of `name` after the thing's name and a dot, "" if there is none; nullopt if `name`
-/// belongs to something else.
+/// The part of `name` after the thing's name and a dot, "" if there is no such part; nullopt if
+/// `name` belongs to something else.
 std::optional<std::string_view> member_of(std::string_view name, const std::string& thing) {
     if (!name.starts_with(thing)) return std::nullopt;
     name.remove_prefix(thing.size());
@@ -46,7 +46,7 @@ bool is_thing(const Quantities::Thing& thing, int body, int bodies) noexcept {
 }
 
 /// The pinch of a hand: half the sum of its fingers' normal forces along the axis from its first
-/// finger to the middle of the others, as grip_force of all fingers.
+/// finger to the middle of the others, computed like the grip_force of all fingers.
 double grip_of(const scene::FingerSet& hand, const frame::Frame& last) noexcept {
     std::array<size_t, scene::kMostFingers> fingers{};
     size_t count = 0;

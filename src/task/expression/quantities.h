@@ -1,8 +1,9 @@
 // The quantities available to the expressions of a task, and their values in a tick.
 //
-// Quantities in the Frame have their names in visit(): grip_force, time; preceded by the name of a
-// finger or body, thumb.handle_position.z, block.velocity.y. A name with components is a vector;
-// .x, .y, .z (and .w for a rotation) select them. In addition, there are
+// Quantities in the Frame have the names given in visit(), such as grip_force and time; those of a
+// finger or body are preceded by its name, such as thumb.handle_position.z and block.velocity.y. A
+// name with components is a vector; .x, .y, .z (and .w for a rotation) select them. In addition,
+// there are
 //
 //     block, block.x, block.speed         a body's origin
 //     index, index.x, index.speed         a finger's handle
@@ -33,11 +34,12 @@
 
 namespace dihaptic::task {
 
-/// The source of a quantity's value. Up to `region` it changes only with the trial, according to
-/// the list of trials; a level lies in a range that is known before the session.
+/// The source of a quantity's value. Values of the kinds up to `region` change only from trial to
+/// trial, according to the list of trials; a level lies in a range that is known before the
+/// session.
 enum class Kind { draw, factor, region, level, variable, figure, tick };
 
-/// Location of the values of a name.
+/// Location of the values to which a name refers.
 struct Symbol {
     enum class Type { number, text, vector };
     int slot = -1;  ///< for a vector: slot of x; y and z follow
@@ -79,7 +81,7 @@ class Quantities {
     /// Defines a number without a name, which expressions find by its slot.
     Symbol define_unnamed(Dimension dimension);
     /// Whether expressions may look back over earlier trials (LookBack). Only expressions that are
-    /// evaluated at the end of a trial may.
+    /// evaluated at the end of a trial may do so.
     bool looks_back() const { return looks_back_; }
     void let_look_back(bool allowed) { looks_back_ = allowed; }
     /// Index of a text in comparisons.
@@ -87,13 +89,14 @@ class Quantities {
     const std::string& text(int index) const { return texts_[static_cast<size_t>(index)]; }
     /// The possible texts of the quantity; null if it was not defined with define_text().
     const std::vector<std::string>* levels(int slot) const;
-    /// Whether the text is a possible value of one of these quantities.
+    /// Whether the text is a possible value of any quantity.
     bool has_level(std::string_view text) const;
     /// Whether the task uses this name: for a thing, a region or a defined quantity.
     bool knows(std::string_view name) const {
         return symbols_.find(name) != symbols_.end() || thing(name) || region(name);
     }
-    /// All names; then only those of bodies, fingers and hands, of regions, and of fingers.
+    /// All names; below, only those of bodies, fingers and hands; only those of regions; and only
+    /// those of fingers.
     std::vector<std::string> names() const;
     std::vector<std::string> things() const;
     const std::vector<std::string>& regions() const { return names_.regions; }
@@ -107,7 +110,7 @@ class Quantities {
     int region(size_t index) const { return regions_ + 4 * static_cast<int>(index); }
     /// Slot of a body's position at the beginning of the trial: x, y, z.
     int start(size_t body) const { return starts_ + 3 * static_cast<int>(body); }
-    /// Slot of the count of these fingers that press the body.
+    /// Slot of the number of these fingers that press the body.
     int pressing(int body, const scene::FingerSet& fingers);
     /// Slot of the normal force between two things, summed over their fingers [N].
     int contact_force(const Thing& a, const Thing& b);
@@ -154,7 +157,7 @@ class Quantities {
         From from = From::frame;
         Format format = Format::f64;
         int slot = -1;
-        int index = 0;   ///< of the finger, body or joint
+        int index = 0;   ///< index of the finger, body or joint
         int offset = 0;  ///< from the beginning of the item [bytes]
         double scale = 1;
         Thing a{};  ///< for middle, pressing, contact, grip
@@ -166,7 +169,7 @@ class Quantities {
     struct Rate {
         int of = -1;  ///< slot
         int slot = -1;
-        bool of_handle = false;  ///< a handle's: its rate before update() is that of the last Frame
+        bool of_handle = false;  ///< of a handle: until update(), the rate is from the last Frame
         std::array<double, kRateTicks> past{};  ///< a ring of values
     };
     struct Member;
@@ -201,9 +204,9 @@ class Quantities {
     std::vector<Source> sources_;
     std::vector<double> values_;
     std::vector<Rate> rates_;
-    std::array<double, kRateTicks> times_{};  // of the past values of rates [s]
-    size_t ticks_ = 0;                        // number of consecutive ones
-    int64_t sequence_ = -1;                   // of the last one
+    std::array<double, kRateTicks> times_{};  // times of the past values of rates [s]
+    size_t ticks_ = 0;                        // number of consecutive ticks
+    int64_t sequence_ = -1;                   // number of the last tick
     bool looks_back_ = false;
 };
 

@@ -1,4 +1,5 @@
-// Describes which trials show how soon a hand corrects its movement, and against which others.
+// Specifies which trials show how soon a hand corrects its movement, and which trials they are
+// compared with.
 #pragma once
 
 #include "scene/scene.h"
@@ -10,11 +11,11 @@ struct State;
 struct Condition;
 
 /// Corrections of a movement in trials in which something happens when the state `after` begins,
-/// against matched trials in which nothing does (analysis/corrections.h).
+/// compared with matched trials in which nothing happens (analysis/corrections.h).
 struct CorrectionSpec {
-    Ref<scene::Finger> of;       ///< empty: the first
-    Ref<State> after;            ///< time is counted from its beginning
-    Vec3 axis = Vec3::UnitX();   ///< along which the hand corrects, of any length
+    Ref<scene::Finger> of;       ///< empty: the scene's first finger
+    Ref<State> after;            ///< time is counted from the beginning of this state
+    Vec3 axis = Vec3::UnitX();   ///< direction of corrections, of any length
     RefList<Condition> matched;  ///< empty: trials of the same condition without a perturbation
     Place place;
 
@@ -26,7 +27,7 @@ struct CorrectionSpec {
         v("axis", axis,
           Field::number()
               .within(-1000, 1000)
-              .says("Direction along which corrections are looked for, of any length."));
+              .says("Direction along which corrections are looked for; a vector of any length."));
         v("matched", matched,
           says("Conditions in which nothing happens; if omitted, the trials of the same condition "
                "without a perturbation."));

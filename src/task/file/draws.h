@@ -7,7 +7,7 @@
 //                   `to` it rises before the end, like that of every bounded distribution
 //     normal        mean + sd z, drawn again until it lies between from and to
 //     permutation   the values in random order, then in a new random order, restarted in each
-//                   block: in n trials, each of k values occurs n / k times or once more
+//                   block: in n trials, each of k values occurs n / k times, rounded down or up
 #pragma once
 
 #include <cstdint>
@@ -49,7 +49,7 @@ struct NormalDraw {
 };
 
 struct ExponentialDraw {
-    double mean = 1;  ///< mean above `from`, if there were no `to`
+    double mean = 1;  ///< mean distance above `from` if there were no `to`
     double from = 0;
     std::optional<double> to;
 
@@ -72,7 +72,7 @@ struct DrawSpec {
     std::vector<std::string> choice;
     std::vector<double> weights;  ///< of the values in `choice`; empty: all equally likely
     std::vector<std::string> permutation;
-    bool participant = false;  ///< its value is the participant's number
+    bool participant = false;  ///< the value is the participant's number
     Place place;
 
     template <class Visitor>
@@ -99,7 +99,7 @@ struct DrawSpec {
     const std::vector<std::string>& values() const { return choice.empty() ? permutation : choice; }
 };
 
-/// Whether these values are texts: they count as numbers only if all of them are numbers.
+/// Whether these values are texts: they are treated as numbers only if all of them are numbers.
 bool are_texts(const std::vector<std::string>& values);
 
 void check(const DrawSpec& draw, Diagnostics& diagnostics);

@@ -18,19 +18,20 @@
 
 namespace dihaptic::task {
 
-/// A body's path while a state lasts: to a position, by a displacement, or given by expressions or
-/// a table. During the first two motions the body may also rotate; it may also rotate in place.
+/// A body's path while a state lasts: to a position, by a displacement, or as given by expressions
+/// or a table. On the first two kinds of path the body can also rotate; it can also rotate in
+/// place.
 struct DriveSpec {
     Ref<scene::Body> body;
-    std::optional<FormulaVec3> to;    ///< final position of its origin [m]
-    std::optional<FormulaVec3> by;    ///< displacement from its initial position [m]
-    std::optional<Vec3> axis;         ///< axis of rotation, through its origin
+    std::optional<FormulaVec3> to;    ///< final position of the body's origin [m]
+    std::optional<FormulaVec3> by;    ///< displacement from the body's initial position [m]
+    std::optional<Vec3> axis;         ///< axis of rotation, through the body's origin
     Formula angle = 0;                ///< angle of rotation, right-handed [rad]
-    std::optional<Formula> duration;  ///< of the motion [s]
+    std::optional<Formula> duration;  ///< duration of the motion [s]
     Formula delay = 0;                ///< [s]
     ProfileShape shape = ProfileShape::minimum_jerk;
-    std::vector<std::string> along;   ///< displacement in each tick: x, y, z
-    std::optional<SampledPath> path;  ///< displacement from its initial position, from a table
+    std::vector<std::string> along;   ///< expressions for the displacement along x, y and z
+    std::optional<SampledPath> path;  ///< table of displacements from the initial position
     Place place;
 
     template <class Visitor>
@@ -38,22 +39,24 @@ struct DriveSpec {
         const Field way = Field::length().within(-100, 100);
         const Field time = Field::of(Quantity::time).within(0, 3600);
         v("body", body, Field::text().required().says("Body that moves."));
-        v("to", to, way.says("Final position of its origin."));
-        v("by", by, way.says("Displacement from its position when the state begins."));
+        v("to", to, way.says("Final position of the body's origin."));
+        v("by", by, way.says("Displacement from the body's position when the state begins."));
         v("axis", axis,
           Field::number().within(-1e6, 1e6).says(
-              "Axis of rotation through its origin; a vector of any length."));
+              "Axis of rotation through the body's origin; a vector of any length."));
         v("angle", angle,
           Field::of(Quantity::angle)
               .within(-1000, 1000)
-              .says("Angle of rotation from its orientation when the state begins, right-handed."));
+              .says("Angle of rotation from the body's orientation when the state begins, "
+                    "right-handed."));
         v("duration", duration, time.says("Duration of the motion."));
         v("delay", delay, time.says("Delay from the beginning of the state."));
         v("shape", shape, says("Shape of the motion's time course."));
         v("along", along,
           says("Three expressions with units, evaluated in each tick: displacement along x, y and "
-               "z from its position when the state began."));
-        v("path", path, says("Table of displacements from its position when the state began."));
+               "z from the body's position when the state began."));
+        v("path", path,
+          says("Table of displacements from the body's position when the state began."));
     }
 };
 
@@ -64,8 +67,9 @@ class Drive {
     Drive(const DriveSpec& spec, int body, Quantities& quantities, Diagnostics& diagnostics);
 
     int body() const noexcept { return body_; }
-    /// Pose of the body at time `t` since the beginning of the state [s], when it was at `from`.
-    /// `of(Formula)` returns the formula's value in this trial; `values`: of the quantities.
+    /// Pose of the body at time `t` since the beginning of the state [s]; `from`: its pose at that
+    /// beginning. `of(Formula)` returns the formula's value in this trial; `values`: of the
+    /// quantities.
     template <class Of>
     Pose at(double t, const Pose& from, const Of& of,
             std::span<const double> values) const noexcept {
@@ -93,7 +97,7 @@ class Drive {
     Vec3 axis_ = Vec3::UnitZ();
     Formula angle_{};
     Course course_;
-    std::vector<Expression> along_;  // none, or three
+    std::vector<Expression> along_;  // three expressions, or none
     std::optional<SampledPath> path_;
 };
 

@@ -27,7 +27,7 @@ void take_scores(State& state, std::vector<CustomMeasure>& measures) {
     state.form->scores.clear();
 }
 
-/// Reads the files that states name, and puts their contents in their places.
+/// Reads the files that states name, and stores their contents in the states.
 void read_files(Task& task, const std::string& folder, Diagnostics& diagnostics) {
     for (State& state : task.states) {
         for (DriveSpec& drive : state.drives) {

@@ -20,10 +20,10 @@ struct MovementSpec {
     std::string block;  ///< a box of the scene, rotated and sized to fit between the fingers
     double squeeze =
         0.006;  ///< distance that each recorded finger moves beyond the block's face [m]
-    std::optional<double> width;     ///< along the grasp; unset: from aperture and squeeze [m]
-    std::optional<double> grasp_at;  ///< time when the fingers closed; unset: it is detected [s]
-    Place place;                     ///< of the key `block` in the file
-    Place file_place;                ///< of the key `file` in the file
+    std::optional<double> width;     ///< along the grasp axis; unset: from aperture and squeeze [m]
+    std::optional<double> grasp_at;  ///< time when the fingers closed; unset: detected [s]
+    Place place;                     ///< location of the key `block` in the file
+    Place file_place;                ///< location of the key `file` in the file
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -54,8 +54,8 @@ struct MovementSpec {
 
 struct Experiment {
     std::string title;
-    std::string scene;  ///< file, relative to this one
-    std::string rig;    ///< file, relative to this one; empty: ideal, simulated devices
+    std::string scene;  ///< scene file, relative to the experiment file
+    std::string rig;    ///< rig file, relative to the experiment file; empty: ideal devices
     std::optional<hand::HandSpec> hand;  ///< replaces the scene's hand
     std::optional<MovementSpec> movement;
     std::optional<Task> task;  ///< trials, in place of the hand's script

@@ -48,7 +48,7 @@ void check(const Form& form, Diagnostics& diagnostics) {
             diagnostics.error(item.place, "question", "is missing",
                               "Write what is asked, e.g. question: How hard was it?");
         if (item.by == AnswerBy::cursor)
-            diagnostics.error(item.place, "by", "cannot be cursor in a form",
+            diagnostics.error(item.place, "by", "cannot be 'cursor' in a form",
                               "Use by: key or by: mouse, or a state with 'ask'.");
         const auto same = [&](const AskSpec& other) { return other.name == item.name; };
         if (std::count_if(form.items.begin(), form.items.end(), same) > 1)

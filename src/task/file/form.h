@@ -11,7 +11,7 @@ namespace dihaptic::task {
 
 /// A number that is computed from the answers.
 struct Score {
-    std::string name;  ///< with its unit
+    std::string name;  ///< name of the score, which may end in its unit
     std::string of;    ///< expression over the answers
     Place place;
 
@@ -44,7 +44,7 @@ struct Form {
 
 /// The form of a state.
 struct FormSpec : Form {
-    std::string file;  ///< relative to the experiment file
+    std::string file;  ///< path, relative to the experiment file
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -58,7 +58,7 @@ struct FormSpec : Form {
     void read_file(const std::string& folder, Diagnostics& diagnostics);
 };
 
-/// Reads a form file. Throws Error if that is impossible; other problems go to `diagnostics`.
+/// Reads a form file. Throws Error if the file cannot be read; other problems go to `diagnostics`.
 Form read_form(const std::string& file, Diagnostics& diagnostics);
 /// Problems within the form itself go to `diagnostics`.
 void check(const Form& form, Diagnostics& diagnostics);

@@ -11,14 +11,15 @@
 namespace dihaptic::task {
 namespace {
 
-/// The words for a character that no tag may have; "" for any other character.
+/// Description of a character that no tag can contain; "" for any other character.
 std::string foreign(char c) {
     if (c == '\t' || c == '\n') return "of a tab or a line break";
     return std::string_view("[]{}~\"").find(c) == std::string_view::npos ? ""
                                                                          : fmt::format("'{}'", c);
 }
 
-/// Tags that only definitions and whole events may have, or that refer to another column's cell.
+/// Tags that can be used only in definitions or for whole events, or that refer to another column's
+/// cell.
 constexpr std::array<std::string_view, 10> kNotHere{
     "onset",      "offset",   "inset", "def", "def-expand",
     "definition", "duration", "delay", "n/a", "event-context"};

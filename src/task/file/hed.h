@@ -8,9 +8,9 @@
 
 namespace dihaptic::task {
 
-/// Reports tags that no HED schema accepts for an event: with unbalanced parentheses, a missing
-/// comma, an empty or a repeated tag, or a character or a tag that has another meaning. Whether a
-/// tag exists depends on the schema; a HED validator checks this in the exported data set.
+/// Reports tags that no HED schema accepts for an event: those with unbalanced parentheses, a
+/// missing comma, an empty or repeated tag, or a character or tag that has another meaning. Whether
+/// a tag exists depends on the schema; a HED validator checks this in the exported data set.
 void check_hed(const std::string& tags, const Place& place, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::task

@@ -1,4 +1,4 @@
-// Keys by name, for programs and people that press them.
+// Finds keys by name, for programs and simulated people that press them.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace dihaptic::task {
 
-/// The key of a name: "Enter", "Backspace" or one character. nullopt: there is no such key.
+/// The key with a name: "Enter", "Backspace" or one character; nullopt if there is no such key.
 inline std::optional<char> key_named(std::string_view name) {
     if (name == "Enter") return Rating::kEnter;
     if (name == "Backspace") return Rating::kBack;

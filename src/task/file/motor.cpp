@@ -50,7 +50,7 @@ void check_form(const MotorSpec& spec, const scene::Joint& joint, Diagnostics& d
               "Put the timing into the expressions, e.g. with time_in_state.");
     if ((goes || follows) && !is_limited(spec))
         error(joint.slides() ? "most_force" : "most_torque", "is missing",
-              "Limit the motor: a hand in its way then feels no more than this.");
+              "Limit the motor: a hand in its way then feels no more than this limit.");
 }
 
 }  // namespace

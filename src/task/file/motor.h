@@ -22,12 +22,12 @@ namespace dihaptic::task {
 struct MotorSpec {
     Ref<scene::Joint> joint;
     std::optional<Formula> angle;         ///< final angle of a hinge [rad]
-    std::optional<Formula> displacement;  ///< final displacement, if not a hinge [m]
-    std::optional<Formula> duration;      ///< of the motion [s]
+    std::optional<Formula> displacement;  ///< final displacement of any other joint [m]
+    std::optional<Formula> duration;      ///< duration of the motion [s]
     Formula delay = 0;                    ///< [s]
     ProfileShape shape = ProfileShape::minimum_jerk;
     std::string follow;                  ///< target coordinate, evaluated in each tick
-    std::optional<Formula> most_force;   ///< limit of the force that moves it [N]
+    std::optional<Formula> most_force;   ///< limit of the force that moves the joint [N]
     std::optional<Formula> most_torque;  ///< [N*m]
     std::string push;                    ///< additional force or torque, evaluated in each tick
     Place place;
@@ -69,9 +69,9 @@ class Motor {
           Diagnostics& diagnostics);
 
     int joint() const noexcept { return joint_; }
-    /// Command of the motor at time `t` since the beginning of the state [s], when the joint was at
-    /// `from`. `of(Formula)` returns the formula's value in this trial; `values`: of the
-    /// quantities.
+    /// Command of the motor at time `t` since the beginning of the state [s]; `from`: the joint's
+    /// coordinate at that beginning. `of(Formula)` returns the formula's value in this trial;
+    /// `values`: of the quantities.
     template <class Of>
     frame::MotorFrame at(double t, double from, const Of& of,
                          std::span<const double> values) const noexcept {
@@ -90,13 +90,13 @@ class Motor {
     }
 
   private:
-    /// An expression may currently divide by zero.
+    /// `otherwise` replaces the value of an expression that happens to divide by zero.
     static double finite_or(double otherwise, double value) noexcept {
         return std::isfinite(value) ? value : otherwise;
     }
 
     int joint_;
-    bool goes_ = false;  ///< it has a destination; otherwise it follows any expression
+    bool goes_ = false;  ///< the motor has a destination; otherwise it follows follow_, if set
     Formula to_{};
     Course course_;
     Formula most_{};

@@ -22,7 +22,7 @@ struct Range {
     double most = kInfinity;
 };
 
-/// Called in the tick; it allocates nothing.
+/// Called in the tick, so it allocates nothing.
 Range given_range(const ProcedureSpec& spec) {
     const auto limits = [](const auto& s) {
         return Range{s.lowest.value_or(-kInfinity), s.highest.value_or(kInfinity)};
@@ -90,12 +90,12 @@ void check_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
 void check_number(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     if (spec.level.empty()) {
         if (spec.perturb.empty())
-            diagnostics.error(spec.place, "perturb", "is missing, and so is level",
+            diagnostics.error(spec.place, "perturb", "is missing, and so is 'level'",
                               "Name a perturbation, whose share the procedure then chooses, or a "
                               "number for use in formulas, e.g. level: mass_g.");
         if (spec.standard)
             diagnostics.error(spec.place, "standard",
-                              "is only for a procedure with level; this one chooses a share",
+                              "is only for a procedure with 'level'; this one chooses a share",
                               "Leave it out: without the procedure the share is 0.");
         return;
     }
@@ -108,7 +108,7 @@ void check_number(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns about levels at which the experiment can run but its answers cannot be fitted.
+/// Warns about levels at which trials can run, but whose answers cannot be fitted.
 void warn_of_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     const double lowest = spec.least();
     if (model::takes(spec.fitted(), lowest)) return;
@@ -185,7 +185,7 @@ void check(const ProcedureSpec& spec, Diagnostics& diagnostics) {
                               "key 'chooses'.");
     }
     if (spec.yes == spec.no && !spec.yes.empty())
-        diagnostics.error(spec.place, "no", "is the same outcome as for yes",
+        diagnostics.error(spec.place, "no", "is the same outcome as for 'yes'",
                           "Name two different outcomes.");
     if (const size_t cells = grid_cells(spec); cells > kLargestGrid) {
         diagnostics.error(
@@ -201,10 +201,11 @@ void check(const ProcedureSpec& spec, Diagnostics& diagnostics) {
                           "Add logarithmic: yes.");
     warn_of_levels(spec, diagnostics);
     if (spec.quest && !spec.known_shape())
-        diagnostics.warning(spec.place, fmt::format("{}.sigmoid", spec.name),
-                            "answers to quest lie only near the threshold and cannot determine the "
-                            "shape of another function: the interval would be too narrow",
-                            "Leave out 'sigmoid'.");
+        diagnostics.warning(
+            spec.place, fmt::format("{}.sigmoid", spec.name),
+            "answers to 'quest' lie only near the threshold and cannot determine the shape of "
+            "another function: the confidence interval would be too narrow",
+            "Leave out 'sigmoid'.");
     try {
         make_procedure(spec, 0);
     } catch (const Error& e) {

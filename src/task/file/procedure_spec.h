@@ -23,14 +23,14 @@ struct StaircaseSpec {
     double down_over_up = 1;
     std::optional<double> lowest;
     std::optional<double> highest;
-    int reversals = 0;  ///< number after which it ends; 0: it ends after the procedure's trials
+    int reversals = 0;  ///< number after which the staircase ends; 0: it ends after `trials`
     int skipped_reversals = 0;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("down_after", down_after,
           Field::number().within(1, 10).says(
-              "Number of consecutive answers 'yes' that lower the level."));
+              "Number of consecutive 'yes' answers that lower the level."));
         v("start", start,
           Field::number()
               .within(-kFurthestLevel, kFurthestLevel)
@@ -52,8 +52,8 @@ struct StaircaseSpec {
               .within(-kFurthestLevel, kFurthestLevel)
               .says("Highest level; the highest share if omitted."));
         v("reversals", reversals,
-          Field::number().within(0, 1000).says(
-              "Number of reversals after which it ends; 0: it ends after the procedure's trials."));
+          Field::number().within(0, 1000).says("Number of reversals after which the staircase "
+                                               "ends; 0: it ends after the procedure's trials."));
         v("skipped_reversals", skipped_reversals,
           Field::number().within(0, 1000).says(
               "Number of initial reversals that are ignored in the threshold."));
@@ -165,17 +165,17 @@ struct PerturbationSpec;
 
 struct ProcedureSpec {
     std::string name;
-    Refs<PerturbationSpec> perturb;  ///< their share is the level, unless `level` is given
+    Refs<PerturbationSpec> perturb;  ///< those whose share is the level, unless `level` is given
     std::string level;  ///< name of a number, which gives the unit of levels; empty: a share
-    std::optional<double> standard;  ///< value where no procedure chooses it, in the same unit
+    std::optional<double> standard;  ///< value of the number where no procedure chooses it
     bool logarithmic = false;        ///< the share or the number is 10^level
     std::string yes;                 ///< the outcome whose probability grows with the level
     std::string no;
-    int trials = 40;  ///< largest number of them
+    int trials = 40;  ///< largest number of trials
     std::optional<model::Sigmoid> sigmoid;
     std::optional<Design> design;
     double guess = 0.5;           ///< probability of "yes" far below the threshold
-    bool guess_is_lapse = false;  ///< the guess rate equals the lapse rate, instead
+    bool guess_is_lapse = false;  ///< the guess rate equals the lapse rate instead
     std::optional<StaircaseSpec> staircase;
     std::optional<QuestSpec> quest;
     std::optional<QuestPlusSpec> quest_plus;
@@ -192,15 +192,15 @@ struct ProcedureSpec {
         v("standard", standard,
           Field::number()
               .within(-kFurthestLevel, kFurthestLevel)
-              .says("Value of the number in the other of two intervals."));
+              .says("Value of the number in the other interval of a two-interval trial."));
         v("logarithmic", logarithmic,
           says("Whether the level is log10 of the share or the number."));
         v("yes", yes, says("Outcome whose probability grows with the level."));
         v("no", no, says("The other outcome."));
         v("trials", trials, Field::number().within(1, 1000).says("Largest number of trials."));
         v("sigmoid", sigmoid,
-          says("Psychometric function of the fit; if omitted, normal, but for quest the function "
-               "that the procedure assumes: weibull_log10 with its slope."));
+          says("Psychometric function of the fit; if omitted, normal, or for 'quest' the function "
+               "that it assumes: weibull_log10 with its slope."));
         v("design", design, says("Kind of question in a trial, which determines 'guess'."));
         visit_guess(v);
         v("staircase", staircase, says("A staircase chooses the level."));
@@ -209,7 +209,7 @@ struct ProcedureSpec {
         v("constant", constant, says("Constant stimuli: each level is presented equally often."));
     }
 
-    /// Range of levels that it may propose; infinite where none is given.
+    /// Limits of the levels that the procedure may propose; infinite if they are not given.
     double most() const;
     double least() const;
     /// The share, or the number in the unit of its name.
@@ -218,7 +218,8 @@ struct ProcedureSpec {
     model::Sigmoid fitted() const {
         return sigmoid.value_or(quest ? model::Sigmoid::weibull_log10 : model::Sigmoid::normal);
     }
-    /// Its shape, if the procedure assumes it: the answers then do not determine it.
+    /// The shape of the fitted function if the procedure assumes one; the answers then do not
+    /// determine it.
     std::optional<double> known_shape() const {
         if (quest && fitted() == model::Sigmoid::weibull_log10) return quest->slope;
         return std::nullopt;

@@ -31,10 +31,12 @@ struct Profile {
     template <class Visitor>
     void visit(Visitor& v) {
         const Field time = Field::of(Quantity::time).within(0, 3600);
-        v("delay", delay, time.says("Delay from entry into the first of its states."));
+        v("delay", delay,
+          time.says("Delay from entry into the first of the perturbation's states."));
         v("rise", rise, time.says("Duration of the rise."));
         v("plateau", plateau,
-          time.says("Duration of the plateau; as long as its states last if omitted."));
+          time.says(
+              "Duration of the plateau; if omitted, as long as the perturbation's states last."));
         v("fall", fall, time.says("Duration of the fall after the plateau."));
         v("shape", shape, says("Shape of the rise and the fall."));
     }

@@ -46,7 +46,7 @@ void check_ends(const AskSpec& spec, Diagnostics& diagnostics) {
             "Make 'to' greater than 'from'.");
     if (spec.scale == Scale::magnitude && spec.least() < 0)
         diagnostics.error(spec.place, "from", "is negative, but a magnitude cannot be",
-                          "Leave it out: it is 0.");
+                          "Leave it out: the default is 0.");
 }
 
 void check_by(const AskSpec& spec, Diagnostics& diagnostics) {
@@ -60,7 +60,7 @@ void check_by(const AskSpec& spec, Diagnostics& diagnostics) {
                           "Add e.g. between: [low, high].");
     if (!cursor && !spec.between.empty())
         diagnostics.error(spec.place, "between",
-                          fmt::format("cannot be used with by: {}", enum_name(spec.by)),
+                          fmt::format("cannot be used with 'by: {}'", enum_name(spec.by)),
                           "Leave it out, or write by: cursor.");
 }
 
@@ -72,10 +72,11 @@ void check_simulated(const AskSpec& spec, double simulated, Diagnostics& diagnos
             .ec == std::errc();
     if (!typed || simulated < spec.least() || simulated > spec.most() ||
         (spec.whole() && simulated != std::round(simulated)))
-        diagnostics.error(spec.place, "simulated_answer",
-                          fmt::format("{:g} is no answer on the scale", simulated),
-                          fmt::format("Write one from {:g} to {:g}, with at most {} characters.",
-                                      spec.least(), spec.most(), Rating::kLongest));
+        diagnostics.error(
+            spec.place, "simulated_answer",
+            fmt::format("{:g} is not an answer on the scale", simulated),
+            fmt::format("Write a number from {:g} to {:g}, with at most {} characters.",
+                        spec.least(), spec.most(), Rating::kLongest));
 }
 
 /// Whether the key can be the next character of a number.
@@ -135,7 +136,7 @@ double Rating::typed() const noexcept {
     double value = kNone;
     const char* const end = text_.data() + length_;
     const auto [at, failed] = std::from_chars(text_.data(), end, value);
-    return failed == std::errc() && at == end ? value + 0.0 : kNone;  // 0 for -0
+    return failed == std::errc() && at == end ? value + 0.0 : kNone;  // turns -0 into 0
 }
 
 double Rating::shown() const noexcept {
@@ -173,7 +174,7 @@ void Rating::click(double share, const Question& question) noexcept {
 double Rating::at(double share, const Question& question) noexcept {
     const double answer =
         question.least + std::clamp(share, 0.0, 1.0) * (question.most - question.least);
-    return (question.whole ? std::round(answer) : answer) + 0.0;  // 0 for -0
+    return (question.whole ? std::round(answer) : answer) + 0.0;  // turns -0 into 0
 }
 
 }  // namespace dihaptic::task

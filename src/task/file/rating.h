@@ -23,7 +23,7 @@ enum class Scale { numbers, vas, likert, magnitude };
 constexpr auto enum_names(Scale) {
     return std::array{"numbers", "vas", "likert", "magnitude"};
 }
-/// The upper end of a scale of magnitudes that does not state one.
+/// Upper end of a scale of magnitudes for which none is given.
 constexpr double kMostMagnitude = 1e6;
 
 enum class AnswerBy { key, mouse, cursor };
@@ -33,15 +33,15 @@ constexpr auto enum_names(AnswerBy) {
 
 /// A question as described in an experiment file.
 struct AskSpec {
-    std::string name;  ///< of the answer, with its unit
+    std::string name;  ///< name of the answer, which may end in its unit
     std::string question;
     Scale scale = Scale::numbers;
     std::optional<double> from;
     std::optional<double> to;
     std::vector<std::string> labels;  ///< of the ends or, on a likert scale, of all numbers
     AnswerBy by = AnswerBy::key;
-    RefList<Region> between;          ///< for `cursor`: at the ends of the line
-    bool optional = false;            ///< Enter alone leaves it unanswered
+    RefList<Region> between;          ///< for `cursor`: regions at the ends of the line
+    bool optional = false;            ///< Enter alone leaves the question unanswered
     std::optional<double> simulated;  ///< answer of simulated people; unset: random
     Place place;
 
@@ -92,13 +92,13 @@ struct Question {
     int from = -1;  ///< regions at the ends of the line
     int to = -1;
     size_t variable = 0;  ///< index of the answer among the variables of frames
-    double si = 1;        ///< unit of its name
+    double si = 1;        ///< unit of the answer's name, in SI
 };
 
 /// The answer to a question while it is being given. In the tick it neither allocates nor throws.
 class Rating {
   public:
-    static constexpr size_t kLongest = 8;  ///< characters of a number
+    static constexpr size_t kLongest = 8;  ///< largest number of characters
     static constexpr char kEnter = '\r';
     static constexpr char kBack = '\b';
 
@@ -112,11 +112,11 @@ class Rating {
     void point(const Vec3& p_W, const Vec3& from_W, const Vec3& to_W,
                const Question& question) noexcept;
 
-    /// NaN until it is given; in the unit of its name, like `shown`.
+    /// NaN until an answer is given; in the unit of the answer's name, like `shown`.
     double answer() const noexcept { return answer_; }
     /// The number typed so far, or the answer.
     double shown() const noexcept;
-    /// Whether nothing is typed.
+    /// Whether nothing has been typed or answered.
     bool empty() const noexcept { return length_ == 0 && std::isnan(answer_); }
 
   private:

@@ -23,7 +23,7 @@ struct Ref : std::string {
 /// a vector.
 template <class T, class List = Texts>
 struct Refs : List {
-    std::vector<int> indices;  ///< of those that exist
+    std::vector<int> indices;  ///< indices of the names that exist
 
     using List::List;
 };

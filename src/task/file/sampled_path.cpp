@@ -123,7 +123,7 @@ bool SampledPath::check(Diagnostics& diagnostics) const {
                fmt::format("has no number in row {}", bad - axis.places.begin() + 1),
                "Fill in the number, or leave out the row.");
     }
-    expect(!x.empty() || !y.empty() || !z.empty(), "x", "is missing, and so are y and z",
+    expect(!x.empty() || !y.empty() || !z.empty(), "x", "is missing, and so are 'y' and 'z'",
            "Give the positions along at least one axis.");
     return good;
 }

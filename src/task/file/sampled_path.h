@@ -20,7 +20,7 @@ namespace dihaptic::task {
 struct SampledPath {
     std::string file;           ///< CSV with the columns below, relative to the experiment's file
     std::vector<double> times;  ///< ascending [s]
-    std::vector<double> x;      ///< at these times, one each, or empty [m]
+    std::vector<double> x;      ///< one position for each time, or empty [m]
     std::vector<double> y;
     std::vector<double> z;
     Place place;
@@ -44,9 +44,10 @@ struct SampledPath {
     void read_file(const std::string& folder, Diagnostics& diagnostics);
     /// Whether the path is valid; problems go to `diagnostics`.
     bool check(Diagnostics& diagnostics) const;
-    /// Displacement from the first position at time `t`, counted from the first time [s]: a cubic
-    /// curve through all positions, whose slope at each is that between its neighbours (Catmull and
-    /// Rom 1974), at rest at both ends. Requires a valid path.
+    /// Displacement from the first position at time `t`, counted from the first time [s]. The path
+    /// is a cubic curve through all positions, whose slope at each of them is that of the line
+    /// between its neighbours (Catmull and Rom 1974); it is at rest at both ends. Requires a valid
+    /// path.
     Vec3 way(double t) const noexcept;
 
   private:

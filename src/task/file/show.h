@@ -28,18 +28,18 @@ struct Show {
     Cursor cursor = Cursor::yes;
     std::string held_from;  ///< state; empty: the previous state
     bool object = true;     ///< the scene's object is shown
-    Node bodies;            ///< name: yes or no
-    Node fingers;           ///< name: yes or no; overrides `cursor`
+    Node bodies;            ///< yes or no for each name
+    Node fingers;           ///< yes or no for each name; overrides `cursor`
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("targets", targets, says("Regions that are shown."));
         v("cursor", cursor,
-          says("Whether the fingers' proxies are shown; held: shown at their positions when the "
+          says("Whether the fingers' proxies are shown; with 'held', at their positions when the "
                "state began, or when the state 'held_from' ended."));
         v("held_from", held_from,
-          says("With cursor: held, the state at whose end the fingers' proxies were where they are "
+          says("With 'cursor: held', the state whose end determines where the fingers' proxies are "
                "shown; the previous state if omitted."));
         v("object", object, says("Whether the scene's object is shown."));
         v("bodies", bodies, says("Individual bodies by name, each shown or not."));
@@ -69,7 +69,7 @@ struct LookSpec {
     std::string colour;  ///< "#rrggbb"; empty: unchanged
     double scale = 1;    ///< factor on the displayed size
     bool hidden = false;
-    Refs<State> during;  ///< of a condition's look; empty: all states
+    Refs<State> during;  ///< states in which a condition's look applies; empty: all
     Place place;
 
     template <class Visitor>
@@ -79,7 +79,7 @@ struct LookSpec {
         v("target", target, says("Region that gets this look."));
         v("colour", colour, says("Colour, as \"#rrggbb\"."));
         v("scale", scale, Field::number().within(0.05, 20).says("Factor on the displayed size."));
-        v("hidden", hidden, says("Whether it is not shown."));
+        v("hidden", hidden, says("Whether the object is hidden."));
         v("during", during, says("States in which a condition's look applies; all if omitted."));
     }
 };
@@ -90,14 +90,15 @@ struct PageSpec {
     std::string picture;   ///< PNG or GIF file, relative to the experiment file
     std::string checksum;  ///< of the picture, once it is found (base/checksum.h)
     std::string key;       ///< one letter or digit; empty: any
-    double lasts = 0;      ///< longest time for which it is shown; 0: until the key press [s]
+    double lasts = 0;      ///< longest time for which the page is shown; 0: until the key press [s]
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("text", text,
           says("Text of the page, in Markdown; names in braces are replaced with numbers."));
-        v("picture", picture, says("PNG or GIF file, which may move, relative to this file."));
+        v("picture", picture,
+          says("PNG or GIF file, which may be animated; its path is relative to this file."));
         v("key", key, says("Letter or digit that turns the page; any key if omitted."));
         v("for", lasts,
           Field::of(Quantity::time)

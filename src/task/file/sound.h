@@ -24,17 +24,17 @@ constexpr auto enum_names(Lasts) {
     return std::array{"once", "state", "session"};
 }
 
-/// Exactly one of a tone, noise or a file.
+/// A sound: exactly one of a tone, noise or a file.
 struct SoundSpec {
     static constexpr double kHighest = 20e3;            ///< frequency [Hz]
-    static constexpr int64_t kLargest = 1'000'000'000;  ///< size of a file [bytes]
+    static constexpr int64_t kLargest = 1'000'000'000;  ///< largest size of a file [bytes]
 
     std::string name;
     std::optional<double> tone;  ///< frequency of a sine [Hz]
     Noise noise = Noise::no;
-    std::string file;       ///< relative to the experiment file
+    std::string file;       ///< path, relative to the experiment file
     std::string checksum;   ///< of the file, once it is found (base/checksum.h)
-    double duration = 0.1;  ///< of a tone or noise that lasts once [s]
+    double duration = 0.1;  ///< of a tone or noise that is played once [s]
     double ramp = 0.005;    ///< onset and offset ramp of a tone or noise, a raised cosine [s]
     double level = 0.5;     ///< amplitude relative to the largest that can be played
     Lasts lasts = Lasts::once;
@@ -58,20 +58,20 @@ struct SoundSpec {
         v("ramp", ramp,
           Field::of(Quantity::time)
               .within(0, 10)
-              .says("Duration of the ramps at its beginning and its end."));
+              .says("Duration of the ramps at the sound's beginning and end."));
         v("level", level,
           Field::number().within(0, 1).says(
               "Amplitude of a tone, or of the loudest sample of noise or a file, relative to the "
               "largest that can be played."));
         v("lasts", lasts,
-          says("Whether it is played once, repeatedly while states name it, or throughout the "
-               "session."));
+          says("Whether the sound is played once, repeatedly while states name it, or throughout "
+               "the session."));
     }
 };
 
 struct Task;
 
-/// Checks each sound on its own.
+/// Checks a sound by itself; problems go to `diagnostics`.
 void check(const SoundSpec& sound, Diagnostics& diagnostics);
 
 /// Converts the paths of the sound files from relative to `folder` to relative to the program's

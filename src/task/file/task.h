@@ -30,13 +30,13 @@ enum class When {
     touched,     ///< a finger presses a body
     released,    ///< no finger presses a body
     gripped,     ///< two fingers press a body
-    lifted,      ///< a body is a height above its initial position
-    still,       ///< the finger, all fingers or a body move slower than a speed
+    lifted,      ///< a body is at least a given height above its initial position
+    still,       ///< the finger, all fingers or a body move slower than a given speed
     key,         ///< the operator pressed a key
     button,      ///< a button of a finger's device is held
     trigger,     ///< a code arrived through one of the rig's outlets
     answered,    ///< the number that the state asks for was entered
-    time,        ///< a time in the state has passed
+    time,        ///< a given time in the state has passed
     expression,  ///< the expression in the text is true (expression.h)
 };
 
@@ -96,21 +96,21 @@ struct State;
 struct Exit {
     When when = When::time;
     std::string condition;  ///< text of an expression
-    Ref<Region> region;     ///< inside, outside
-    bool shown = false;     ///< inside, outside: judged by the displayed position
-    Ref<scene::Body> body;  ///< touched, released, gripped, lifted
-    std::string what;       ///< inside, outside, still: a body, in place of a finger
-    std::string finger;     ///< a finger or a hand; if empty, the first finger; touched, released:
-                            ///< any finger; gripped: any two; still: all fingers; inside, outside:
-                            ///< the middle of all
-    Formula height = 0.02;  ///< lifted [m]
-    Formula speed = 0.02;   ///< still [m/s]
+    Ref<Region> region;     ///< for inside and outside
+    bool shown = false;     ///< for inside and outside: judged by the displayed position
+    Ref<scene::Body> body;  ///< for touched, released, gripped and lifted
+    std::string what;       ///< for inside, outside and still: a body, in place of a finger
+    std::string finger;     ///< a finger or a hand; if empty, the first finger, but for touched and
+                            ///< released any finger, for gripped any two, for still all fingers,
+                            ///< for inside and outside the middle of all fingers
+    Formula height = 0.02;  ///< for lifted [m]
+    Formula speed = 0.02;   ///< for still [m/s]
     int count = 1;          ///< number of times that the condition has to be met
     Formula hold = 0;       ///< time for which the condition must hold without interruption; with
                             ///< When::time, the time in the state [s]
     std::string key;        ///< one letter or digit
     int button = 0;         ///< counted from 0
-    int code = 0;           ///< trigger; 0: any
+    int code = 0;           ///< for trigger; 0: any
     Ref<State> to;
     std::string outcome;        ///< ends the trial with this outcome
     int chooses = 0;            ///< ends the trial with the answer that chooses this interval
@@ -121,9 +121,9 @@ struct Exit {
     std::string hed;            ///< HED tags of the outcome
     Place place;
 
-    /// Whether its condition has any of these fields (WhenRow::Has).
+    /// Whether the condition has any of these fields (WhenRow::Has).
     bool has(unsigned any) const { return (kWhenTable[static_cast<size_t>(when)].has & any) != 0; }
-    /// Its condition as written in the file: a word of the table, or an expression.
+    /// The condition as written in the file: a word of kWhenTable, or an expression.
     std::string given() const {
         return when == When::expression ? condition : std::string(enum_name(when));
     }
@@ -159,7 +159,7 @@ struct Exit {
            says("Body, finger or hand whose position or speed is tested, in place of 'finger'."));
         of(WhenRow::finger | WhenRow::any_finger, "finger", finger,
            says("Finger or hand of the condition; if omitted, any finger, all fingers or their "
-                "middle, and for a button the scene's first finger."));
+                "middle, depending on the condition; for a button, the scene's first finger."));
         of(WhenRow::height, "height", height,
            Field::length().within(1e-4, 10).says(
                "Height of the body above its position at the beginning of the trial."));
@@ -186,7 +186,7 @@ struct Exit {
         v("outcome", outcome, says("Outcome with which the exit ends the trial."));
         v("chooses", chooses,
           Field::number().within(0, 2).says(
-              "Interval, of two, that the participant chooses by this exit."));
+              "Which of two intervals the participant chooses by this exit."));
         v("redo", redo, says("Whether the trial is to be repeated."));
         v("ends_session", ends_session,
           says("Whether the session ends with this trial, and its other trials are left out."));
@@ -232,10 +232,10 @@ struct HandStep {
 /// Placement of a body when a state begins.
 struct StatePlace {
     Ref<scene::Body> body;
-    std::optional<FormulaVec3> position;  ///< unset: its current position [m]
-    std::optional<FormulaVec3> velocity;  ///< unset: at rest, if it is placed [m/s]
-    bool held = false;                    ///< it is kept there while the state lasts
-    bool removed = false;  ///< it is out of reach and invisible while the state lasts
+    std::optional<FormulaVec3> position;  ///< unset: the body's current position [m]
+    std::optional<FormulaVec3> velocity;  ///< unset: at rest, if the body is placed [m/s]
+    bool held = false;                    ///< the body is kept there while the state lasts
+    bool removed = false;  ///< the body is out of reach and invisible while the state lasts
     Place place;
 
     template <class Visitor>
@@ -244,11 +244,11 @@ struct StatePlace {
           Field::text().required().says("Body that is placed when the state begins."));
         v("position", position,
           Field::length().within(-100, 100).says(
-              "New position of its origin; unchanged if omitted."));
+              "New position of the body's origin; unchanged if omitted."));
         v("velocity", velocity,
           Field::of(Quantity::speed)
               .within(-100, 100)
-              .says("Velocity with which it is released there; at rest if omitted."));
+              .says("Velocity with which the body is released there; at rest if omitted."));
         v("held", held, says("Whether the body is kept there while the state lasts."));
         v("removed", removed,
           says("Whether the body is out of reach and invisible while the state lasts."));
@@ -259,8 +259,8 @@ struct State {
     std::string name;
     Show show;
     std::vector<LookSpec> look;
-    bool perturbed = true;  ///< the trial's perturbations act in it
-    int interval = 0;       ///< interval to which it belongs, 1 or 2; 0: none
+    bool perturbed = true;  ///< the trial's perturbations act in the state
+    int interval = 0;       ///< interval to which the state belongs, 1 or 2; 0: none
     std::string message;
     std::vector<std::string> lines;  ///< texts below the message while the state lasts
     bool countdown = false;          ///< a line shows the seconds left until the exit by time
@@ -268,13 +268,13 @@ struct State {
     std::optional<FormSpec> form;    ///< several questions, in place of `ask`
     int marker = 0;                  ///< event code on entry; 0: none
     bool patch = false;              ///< the rig's patch is white while the state lasts
-    Refs<SoundSpec> sounds;          ///< sounds that start with it, or continue while it lasts
+    Refs<SoundSpec> sounds;          ///< sounds that start or continue while the state lasts
     std::vector<StatePlace> places;
     std::vector<DriveSpec> drives;
     std::vector<MotorSpec> motors;
     std::vector<Exit> exits;     ///< the first whose condition is met is taken
     std::vector<HandStep> hand;  ///< steps of the simulated hand from entry into the state
-    std::string hed;             ///< HED tags of its beginning
+    std::string hed;             ///< HED tags of the state's beginning
     Place place;
 
     template <class Visitor>
@@ -301,8 +301,8 @@ struct State {
         v("patch", patch,
           says("Whether the rig's photodiode patch is white, not black, while the state lasts."));
         v("sounds", sounds,
-          says("Sounds that start with the state; those with lasts: state end with it, unless the "
-               "next state lists them too."));
+          says("Sounds that start with the state; those with 'lasts: state' end with it, unless "
+               "the next state lists them too."));
         v("place", places, says("Bodies that are placed when the state begins."));
         v("drive", drives, says("Bodies that move on paths while the state lasts."));
         v("motors", motors, says("Joints that motors move or push while the state lasts."));
@@ -339,26 +339,27 @@ struct BodyPlace {
           Field::text().says(
               "Body whose position at the beginning of the trial differs from that in the scene."));
         v("position", position,
-          Field::length().within(-100, 100).says("Initial position of its origin."));
+          Field::length().within(-100, 100).says("Initial position of the body's origin."));
         v("joint", joint,
           Field::text().says("Joint, in place of a body, whose initial coordinate is not 0; all "
                              "bodies attached to its second body move with it."));
         v("angle", angle,
           Field::of(Quantity::angle)
               .within(-100, 100)
-              .says("Initial angle of the joint, a hinge."));
+              .says("Initial angle of the joint, which must be a hinge."));
         v("displacement", displacement,
-          Field::length().within(-100, 100).says("Initial displacement of the joint, a slider."));
+          Field::length().within(-100, 100).says(
+              "Initial displacement of the joint, which must be a slider."));
         v("velocity", velocity,
           Field::of(Quantity::speed).within(-100, 100).says("Initial velocity of the body."));
         v("rate", rate,
           Field::of(Quantity::angular_speed)
               .within(-1000, 1000)
-              .says("Initial angular velocity of the joint, a hinge."));
+              .says("Initial angular velocity of the joint, which must be a hinge."));
         v("speed", speed,
           Field::of(Quantity::speed)
               .within(-100, 100)
-              .says("Initial velocity of the joint, a slider."));
+              .says("Initial velocity of the joint, which must be a slider."));
     }
 };
 
@@ -418,9 +419,9 @@ using rows::TrialKind;
 struct Insert {
     TrialKind kind = TrialKind::catch_trial;
     int count = 1;
-    int gap = 1;  ///< smallest number of other trials between two of them
+    int gap = 1;  ///< smallest number of other trials between two inserted ones
     Refs<PerturbationSpec> perturb;
-    RefList<Condition> conditions;  ///< empty: that of the previous trial
+    RefList<Condition> conditions;  ///< empty: the condition of the previous trial
     Place place;
 
     template <class Visitor>
@@ -451,14 +452,14 @@ struct Block {
     Once once = Once::no;
     int repeats = 1;                 ///< number of times that each condition is run
     Order order = Order::shuffled;   ///< order of the conditions, generated for each repeat
-    Refs<PerturbationSpec> perturb;  ///< they act together
-    int ramp = 0;  ///< number of trials in which their share rises from 0 to 1; 0: at once
+    Refs<PerturbationSpec> perturb;  ///< perturbations that act together
+    int ramp = 0;  ///< number of trials in which the perturbations' share rises to 1; 0: at once
     RefList<ProcedureSpec> procedures;  ///< if given, their interleaved trials make up the block
     std::vector<Insert> insert;
     std::string until;            ///< condition on variables that ends the block; empty: none
     double rest = 0;              ///< break before the block, unless it is the first [s]
     std::vector<PageSpec> pages;  ///< shown before the block begins
-    Ref<State> begins;            ///< state in which its trials begin; empty: the first
+    Ref<State> begins;            ///< state in which the block's trials begin; empty: the first
     Place place;
 
     template <class Visitor>
@@ -467,15 +468,16 @@ struct Block {
         v("kind", kind, says("Kind of the block's trials, for the analysis."));
         v("conditions", conditions, says("Conditions of the block; all if omitted."));
         v("once", once,
-          says("Whether the block is done once outside the rounds, before the first or after the "
-               "last, and belongs to none."));
+          says("Whether the block is run only once, outside the rounds: before the first round or "
+               "after the last."));
         v("begins", begins,
-          Field::text().says("State in which its trials begin; the first one if omitted."));
+          Field::text().says("State in which the block's trials begin; the first one if omitted."));
         v("repeats", repeats,
           Field::number().within(1, 10000).says("Number of times that each condition is run."));
         v("order", order, says("Order of the conditions, generated for each repeat."));
         v("perturb", perturb,
-          says("Perturbations that act together in its trials, at most eight; none if omitted."));
+          says("Perturbations that act together in the block's trials, at most eight; none if "
+               "omitted."));
         v("ramp", ramp,
           Field::number().within(0, 100000).says(
               "Number of trials in which the perturbations' share rises to 1; 0: at once."));
@@ -514,7 +516,7 @@ constexpr auto enum_names(Measure) {
 
 struct ReachMeasure {
     Measure measure = Measure::angle;
-    Ref<scene::Finger> finger;  ///< empty: the first
+    Ref<scene::Finger> finger;  ///< empty: the scene's first finger
     Ref<Region> from;
     Ref<Region> to;
     Refs<State> during;
@@ -611,7 +613,7 @@ struct Task {
     int most_attempts = 3;  ///< largest number of attempts at a trial
     /// Time for which feedback stays: no message replaces it, and no trial starts [s].
     double feedback = 1;
-    bool feedback_beside = false;    ///< it appears below the message for this time
+    bool feedback_beside = false;    ///< feedback appears below the message for this time
     std::vector<std::string> lines;  ///< texts below the message throughout the session
     std::optional<ReachMeasure> reach;
     std::vector<std::string> measures;  ///< names from kMeasureTable
@@ -648,7 +650,7 @@ struct Task {
                "so far."));
         v("stays", stays,
           says("Bodies that are not put back between trials: each trial begins with them where the "
-               "one before left them."));
+               "previous trial left them."));
         v("blocks", blocks, Field::text().required().says("Blocks of trials, in order."));
         v("redo", redo, says("Whether and when a failed trial is repeated."));
         v("most_attempts", most_attempts,
@@ -672,7 +674,8 @@ struct Task {
         v("movement", movement,
           says("Movement that the measures analyse; keys omitted here are copied from 'reach'."));
         v("corrections", corrections,
-          says("Trials in which something happens, whose correction has a latency."));
+          says("Trials in which something happens that the hand corrects, to measure the latency "
+               "of the correction."));
     }
 };
 

@@ -212,7 +212,7 @@ void BodyPlanner::hang(std::vector<TaskPlan::StartPose>& start_poses) const {
             }
         }
     }
-    // number of joints between it and a body that no joint places
+    // number of joints between the body and a body that no joint places
     const auto depth = [&](const TaskPlan::StartPose& start_pose) {
         size_t out = 0;
         for (auto at = start_of(start_pose.body);

@@ -71,7 +71,7 @@ class CellPlanner : Planning {
             if (!state.perturbed)
                 found.error(
                     spec.place, "during",
-                    fmt::format("nothing acts in '{}', which has perturbed: no", state.name),
+                    fmt::format("nothing acts in '{}', which has 'perturbed: no'", state.name),
                     "Leave out one or the other.");
         }
     }
@@ -92,7 +92,7 @@ void plan_cells(const Planning& given, const BodyPlanner& bodies, const SeenPlan
     std::vector<Condition> rounds = plan.task.rounds;
     const auto beside = [](const Block& block) { return block.once != Once::no; };
     if (rounds.empty() || std::ranges::any_of(plan.task.blocks, beside)) rounds.push_back(nothing);
-    std::set<std::string> said;  // a mistake occurs in every cell, but is reported once
+    std::set<std::string> said;  // a mistake in every cell is reported only once
     for (const Condition& round : rounds) {
         for (const Condition& condition : or_one(plan.task.conditions)) {
             Diagnostics found;

@@ -140,7 +140,7 @@ class BlockChecker {
         error(place, "perturb",
               fmt::format("makes {} loads act in state '{}', but at most {} are allowed", loads,
                           where, frame::TaskFrame::kMostLoads),
-              "Leave some out, or combine loads on one thing into a load of kind general.");
+              "Leave some out, or combine loads on one thing into a load of kind 'general'.");
         return false;
     }
 
@@ -152,8 +152,8 @@ class BlockChecker {
         return out;
     }
 
-    /// Checks that a block has either a perturbation, ramped or not, or procedures that choose one,
-    /// or neither.
+    /// Checks that a block has a perturbation, ramped or not, or procedures that choose one, or
+    /// neither, but not both.
     void check_ways_to_perturb(const Block& block) {
         if (!block.procedures.empty() && (!block.perturb.empty() || block.ramp > 0))
             error(block.place, "procedures", "already choose the perturbation and its share",

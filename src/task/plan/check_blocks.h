@@ -6,7 +6,8 @@
 
 namespace dihaptic::task {
 
-/// Reports their mistakes. The plan's outcomes, formulas and cells must be ready.
+/// Reports mistakes in the plan's procedures and blocks. The plan's outcomes, formulas and cells
+/// must be ready.
 void check_blocks(const TaskPlan& plan, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::task

@@ -30,7 +30,7 @@ void check_name(const CustomMeasure& measure, const TaskPlan& plan, Diagnostics&
     }
 }
 
-/// The unit at the end of a column's name, e.g. "N/s" of rate_N_s; "" without one.
+/// The unit at the end of a column's name, e.g. "N/s" of rate_N_s; "" if there is none.
 std::string unit_of(const std::string& column) {
     const NameInUnit name = split_unit(column);
     if (name.quantity == Quantity::none) return "";
@@ -96,7 +96,7 @@ CustomMeasures::CustomMeasures(TaskPlan plan)
 }
 
 void CustomMeasures::add(const frame::Frame& frame) {
-    // the tick that ends an attempt orders no perturbation any more
+    // in the tick that ends an attempt, no perturbation acts any more
     if (frame.task.outcome >= 0) return;
     const double now = seconds(frame.time);
     const bool begins = began_ < 0;
@@ -129,17 +129,18 @@ void CustomMeasures::add(const frame::Frame& frame) {
     }
 }
 
-/// Takes the mean of the values within a window's length, once it is full of measured values.
+/// Takes the mean of the values within a window's length, once the window is full of measured
+/// values.
 void CustomMeasures::add_to_window(size_t i, double now, double value) {
     constexpr double kTolerance = 1e-6;  // sums of ticks have rounding errors [s]
     std::deque<std::pair<double, double>>& window = windows_[i];
     const double step = window.empty() ? 0 : now - window.back().first;
     if (std::isnan(value)) return window.clear();
     window.emplace_back(now, value);
-    const double from = now - plan_.custom_measures[i].window;  // of the tick before the window
+    const double from = now - plan_.custom_measures[i].window;  // tick before the window
     while (window.front().first <= from + kTolerance) window.pop_front();
     if (window.front().first > from + step + kTolerance) return;
-    double sum = 0;  // anew each time: a running sum would stay wrong after a value too large
+    double sum = 0;  // summed anew each time: a huge value would spoil a running sum for good
     for (const auto& [time, one] : window) sum += one;
     taken_[i].add(sum / static_cast<double>(window.size()));
 }

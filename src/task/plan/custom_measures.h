@@ -23,11 +23,11 @@ std::vector<Table::Column> columns_of(const std::vector<AskSpec>& questions);
 /// Computes the custom measures of successive attempts.
 class CustomMeasures {
   public:
-    /// `plan`: with its trials; its custom measures must have been compiled.
+    /// `plan` must include its trials, and its custom measures must have been compiled.
     explicit CustomMeasures(TaskPlan plan);
     CustomMeasures(const CustomMeasures&) = delete;
 
-    /// `frame`: belongs to an attempt at a trial. The tick that ends the attempt does not count.
+    /// `frame`: belongs to an attempt at a trial. The tick that ends the attempt is ignored.
     void add(const frame::Frame& frame);
     /// Ends the attempt and returns its values in the units of the columns; NaN if no tick of the
     /// attempt was in the measure's states.
@@ -40,7 +40,7 @@ class CustomMeasures {
     TrialNumbers numbers_;
     std::vector<frame::Handle> handles_;
     std::vector<Taken> taken_;
-    std::vector<std::deque<std::pair<double, double>>> windows_;  // times [s], values
+    std::vector<std::deque<std::pair<double, double>>> windows_;  // times [s] and values
     int phase_ = 0;
     double entered_ = 0;  // time of entry into the state [s]
     double began_ = -1;   // start of the attempt [s]; -1: no frame yet

@@ -70,7 +70,7 @@ void check_apart(const Task& task, Diagnostics& diagnostics) {
         diagnostics.error(
             factor.place, "factors",
             fmt::format("'{}' is a factor of conditions and of rounds", factor.factor),
-            "Give it to one of the two, or use two names.");
+            "Use it for only one of the two, or use two names.");
     }
 }
 

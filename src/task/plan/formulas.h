@@ -11,10 +11,10 @@
 namespace dihaptic::task {
 
 struct CompiledFormula {
-    Formula formula;  ///< its text, with its key, unit, bounds and place
+    Formula formula;  ///< text of the formula, with its key, unit, bounds and place
     Expression expression;
     double scale = 1;    ///< unit of the key, if the text has no dimension
-    double largest = 0;  ///< over the planned trials
+    double largest = 0;  ///< largest value over the planned trials
 
     double value(std::span<const double> values) const noexcept {
         return scale * expression(values);

@@ -31,7 +31,7 @@ void check_order(const Task& task, Diagnostics& diagnostics) {
         diagnostics.error(
             draw.place, "name",
             fmt::format("'{}' is reserved for the comparison interval", draw.name),
-            "Draw it by choice or permutation: [1, 2], or give the draw another name.");
+            "Draw it with 'choice' or 'permutation' from [1, 2], or give the draw another name.");
     }
 }
 

@@ -42,7 +42,7 @@ bool acts_on(const LoadSpec& load, const Movement& movement) {
            std::find(load.on.begin(), load.on.end(), movement.of) != load.on.end();
 }
 
-/// Whether a load of the perturbation acts on it.
+/// Whether a load of the perturbation acts on the finger, body or hand that is measured.
 bool acts_on(const PerturbationSpec& spec, const Movement& movement) {
     const std::vector<LoadSpec> loads = spec.all_loads();
     return movement.of == kHand ||
@@ -84,7 +84,7 @@ class MeasureChecker {
         if (task_.corrections) check_corrections(*task_.corrections);
         if ((needs & MeasureRow::step) && movement_.step.empty())
             error("step", "is missing, but grip_latency starts at a load step",
-                  "Add movement: { step: name of the state that starts with it }.");
+                  "Add movement: { step: name of the state that starts with the load step }.");
     }
 
   private:
@@ -95,7 +95,7 @@ class MeasureChecker {
         look_up(names_of(task_.states), name, place_, key, "not a state", diagnostics_);
     }
 
-    /// Whether there are trials to compare; names have been looked up elsewhere.
+    /// Checks that there are trials to compare; names have been looked up elsewhere.
     void check_corrections(const CorrectionSpec& spec) {
         if (spec.axis.isZero(1e-9))
             diagnostics_.error(spec.place, "axis", "has no direction", "Write e.g. [1, 0, 0].");
@@ -105,10 +105,10 @@ class MeasureChecker {
         };
         if (spec.matched.empty() && std::ranges::none_of(task_.blocks, any) &&
             std::ranges::none_of(task_.procedures, perturbs))
-            diagnostics_.error(spec.place, "matched",
-                               "is missing: no block has perturbations, so that no trial differs "
-                               "from the others",
-                               "Name the conditions in which nothing happens.");
+            diagnostics_.error(
+                spec.place, "matched",
+                "is missing: no block has perturbations, so no trial differs from the others",
+                "Name the conditions in which nothing happens.");
         if (!spec.matched.empty() && spec.matched.size() == task_.conditions.size())
             diagnostics_.error(spec.place, "matched", "names all conditions",
                                "Leave out those in which something happens.");
@@ -153,7 +153,7 @@ class MeasureChecker {
             if (body.moves_at_all()) things.push_back(body.name);
         }
         things.emplace_back(kHand);
-        look_up(things, movement_.of, place_, "of", "neither a finger, a movable body nor hand",
+        look_up(things, movement_.of, place_, "of", "neither a finger, a movable body nor 'hand'",
                 diagnostics_);
     }
 
@@ -165,8 +165,8 @@ class MeasureChecker {
             diagnostics_.error(
                 task_.place, "measures",
                 fmt::format("a channel force is listed, but no channel acts on '{}'", movement_.of),
-                "Add a perturbation with field: { kind: channel, ... }, or set 'of' in movement to "
-                "the finger or body in the channel.");
+                "Add a perturbation with field: { kind: channel, ... }, or set 'of' in 'movement' "
+                "to the finger or body in the channel.");
     }
 
     void check_ideal() {

@@ -28,8 +28,8 @@ struct MeasureColumn {
     const char* name = nullptr;
     const char* unit = "";
     const char* what = "";
-    /// Bounds of its plausible range, in the column's unit: a value outside it reflects the
-    /// recording or the rule, not the person, and is left out.
+    /// Bounds of the column's plausible range, in its unit: a value outside it is due to the
+    /// recording or the measure's rule, not the person, and is left out.
     double least = 0;
     double most = 0;
 };
@@ -42,7 +42,7 @@ struct MeasureRow {
     const char* name;
     unsigned needs;
     const char* source;
-    std::array<MeasureColumn, 5> columns;  ///< the last ones may be empty
+    std::array<MeasureColumn, 5> columns;  ///< unused ones at the end are empty
 };
 
 inline constexpr unsigned kMoves = MeasureRow::movement;
@@ -72,7 +72,7 @@ inline constexpr MeasureRow kMeasureTable[] = {
      kMoves,
      "Shadmehr and Mussa-Ivaldi 1994",
      {{{"lateral_deviation", "mm",
-        "deviation from the straight line where it first turns back; positive: to the left", -1000,
+        "deviation from the straight line at its first extreme; positive: to the left", -1000,
         1000},
        {"lateral_deviation_at_peak_speed", "mm", "deviation from the straight line at peak speed",
         -1000, 1000},
@@ -95,10 +95,10 @@ inline constexpr MeasureRow kMeasureTable[] = {
      "Gordon et al. 1994",
      {{{"end_point_error", "mm", "distance from the target's centre at the end of the movement", 0,
         2000},
-       {"end_point_extent_error", "mm", "component along the line; positive: overshoot", -2000,
-        2000},
-       {"end_point_lateral_error", "mm", "component across the line; positive: to the left", -2000,
-        2000}}}},
+       {"end_point_extent_error", "mm",
+        "component of the error along the line; positive: overshoot", -2000, 2000},
+       {"end_point_lateral_error", "mm",
+        "component of the error across the line; positive: to the left", -2000, 2000}}}},
     {"initial_direction",
      kMoves | MeasureRow::begun,
      "Krakauer et al. 2000",
@@ -116,17 +116,18 @@ inline constexpr MeasureRow kMeasureTable[] = {
         "largest force of the hand on the channel by magnitude; positive: to the left", -200, 200},
        {"channel_force_at_peak_speed", "N", "force of the hand on the channel at peak speed", -200,
         200},
-       {"channel_force_impulse_Ns", "N*s", "integral of that force from onset to end", -1000,
+       {"channel_force_impulse_Ns", "N*s", "integral of the channel force from onset to end", -1000,
         1000}}}},
     {"adaptation_index",
      kInChannel | MeasureRow::ideal,
      "Smith et al. 2006",
      {{{"adaptation_index", "1", "regression slope of channel force on ideal force, through zero",
         -3, 3},
-       {"adaptation_index_slope", "1", "regression slope with an intercept", -10, 10},
-       {"adaptation_index_offset", "N", "intercept of that regression", -200, 200},
+       {"adaptation_index_slope", "1", "regression slope if an intercept is fitted too", -10, 10},
+       {"adaptation_index_offset", "N", "intercept of the regression", -200, 200},
        {"adaptation_index_r2", "1",
-        "share of the channel force's variance explained by that regression", 0, 1},
+        "share of the channel force's variance explained by the regression with an intercept", 0,
+        1},
        {"field_share", "1", "share of the ideal field that acted; empty in a channel", -100,
         100}}}},
     {"grip_onset",
@@ -183,15 +184,15 @@ constexpr auto enum_names(Take) {
     return std::array{"first", "last", "min", "max", "mean", "median", "sd", "rms"};
 }
 
-/// A custom measure of a task.
 struct State;
 
+/// A custom measure of a task.
 struct CustomMeasure {
-    std::string name;  ///< its column in trials.csv, with the unit
+    std::string name;  ///< the measure's column in trials.csv, with the unit
     std::string of;    ///< an expression, evaluated in each tick
-    std::string when;  ///< condition for the ticks that count; empty: all do
+    std::string when;  ///< condition that selects ticks; empty: all
     Take take = Take::max;
-    std::optional<double> window;  ///< the statistic is of moving means over this time [s]
+    std::optional<double> window;  ///< length of the moving means whose statistic is taken [s]
     RefList<State> during;         ///< empty: all
     Place place;
 
@@ -199,17 +200,18 @@ struct CustomMeasure {
     void visit(Visitor& v) {
         v("name", name,
           Field::text().required().says(
-              "Name of its column in trials.csv, with the unit, e.g. squeeze_N."));
+              "Name of the measure's column in trials.csv, with the unit, e.g. squeeze_N."));
         v("of", of, Field::text().required().says("Expression that is evaluated in each tick."));
         v("when", when,
-          says("Condition for the ticks that count, e.g. time_in_state > 2 s; all if omitted."));
-        v("take", take, Field::text().required().says("Statistic of its values that is reported."));
+          says("Condition that selects ticks, e.g. time_in_state > 2 s; all ticks if omitted."));
+        v("take", take,
+          Field::text().required().says("Statistic of the expression's values that is reported."));
         v("window", window,
           Field::of(Quantity::time)
               .within(1e-3, 600)
-              .says("Time over which a moving mean is taken before the statistic: take: max gives "
-                    "the highest value that was sustained for so long."));
-        v("during", during, says("States in which it is evaluated; all if omitted."));
+              .says("Time over which a moving mean is taken before the statistic; 'take: max' then "
+                    "gives the highest value sustained for this time."));
+        v("during", during, says("States in which the measure is evaluated; all if omitted."));
     }
 };
 
@@ -221,13 +223,13 @@ struct Movement {
     std::vector<std::string> during;  ///< states
     std::string go;    ///< state that starts with the go signal; empty: the first of `during`
     std::string step;  ///< state that starts with a load step
-    /// Speed that defines movement onset: absolute, or else a share of its peak.
+    /// Speed that defines movement onset: absolute, or else a share of the peak speed.
     std::optional<double> onset_speed;  ///< [m/s]
     double onset_share = 0.05;
-    double end_still = 0;           ///< time below that speed after which it has ended [s]
+    double end_still = 0;           ///< time below that speed needed to end the movement [s]
     double direction_after = 0.1;   ///< from onset to the initial direction [s]
     double deviation_after = 0.15;  ///< from onset to the early lateral deviation [s]
-    bool continues = false;         ///< a movement that had begun before its states counts
+    bool continues = false;         ///< whether movements can begin before their states
     std::optional<Vec3> axis;       ///< like ReachMeasure::axis
     std::string ideal;  ///< perturbation whose field defines the ideal force; empty: the first
     /// Column of a listed measure, without its unit: the error to which adaptation is fitted, since
@@ -269,13 +271,13 @@ struct Movement {
               .within(1e-3, 10)
               .says("Time from onset at which the early lateral deviation is measured."));
         v("continues", continues,
-          says("Whether a movement that had begun before its states counts, from their first tick "
-               "on, as that through a via point."));
+          says("Whether a movement that began before its states is analysed from their first tick "
+               "on, e.g. one through a via point."));
         v("axis", axis,
           Field::number()
               .within(-1000, 1000)
-              .says("Viewing axis that defines left of the line, seen from its tip; the axis of "
-                    "'reach' if omitted."));
+              .says("Axis from whose tip the line is viewed, which defines its left side; the axis "
+                    "of 'reach' if omitted."));
         v("ideal", ideal,
           says("Perturbation with whose field the channel force is compared; the first with a "
                "viscous or curl field if omitted."));
@@ -305,10 +307,11 @@ struct MovementPlan {
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
-        rows::visit_vector(v, "movement_from", f.from_W, "mm", "start of its straight line");
+        rows::visit_vector(v, "movement_from", f.from_W, "mm",
+                           "start of the movement's straight line");
         rows::visit_vector(v, "movement_to", f.to_W, "mm", "end of that line");
         rows::visit_vector(v, "movement_axis", f.axis_W, "1",
-                           "axis from whose tip left of the line is defined");
+                           "axis from whose tip the line is viewed, which defines its left side");
         v("movement_channel", f.channel, "1", "1: confined by a channel");
         v("movement_field_share", f.field_share, "1",
           "ratio of the trial's field to the ideal one; empty in a channel");
@@ -331,7 +334,7 @@ void check_measures(const TaskPlan& plan, const scene::Scene& scene, Diagnostics
 std::vector<MovementPlan> movements_of(const TaskPlan& plan, const scene::Scene& scene);
 /// Adds columns for the numbers of the trials' movements to a list with one row per trial.
 void add_movements(Table& list, const TaskPlan& plan, const scene::Scene& scene);
-/// Name of the first of these columns; columns on reaches precede it.
+/// Name of the first column on movements; columns on reaches precede it.
 inline constexpr const char* kFirstMovementColumn = "movement_from_x_mm";
 /// Reads the movements by trial; none if the task's measures need no movement.
 std::vector<MovementPlan> read_movements(const std::string& file);

@@ -48,7 +48,7 @@ class Names {
 
 /// The shared data of all parts of planning.
 struct Planning {
-    TaskPlan& plan;  ///< with the task, its references resolved, and the parts planned so far
+    TaskPlan& plan;  ///< has the task, its references resolved, and the parts planned so far
     const Names& names;
     const scene::Scene& scene;
     Diagnostics& diagnostics;

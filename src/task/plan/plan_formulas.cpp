@@ -80,7 +80,7 @@ class Definer {
         return out;
     }
 
-    /// The name of the round.
+    /// Defines the quantity with the name of the round.
     void define_round(const Task& task) {
         std::vector<std::string> names = names_of(task.rounds);
         const auto beside = [](const Block& block) { return block.once != Once::no; };
@@ -187,7 +187,7 @@ bool names_angle(const TaskPlan& plan, std::string_view text) {
                                [&](const auto& item) { return named(item.name); });
         };
         const std::vector<Factor> factors = factors_of(task);
-        // atan2() and a joint's angle are in radians, whether or not the text says so
+        // atan2() and a joint's angle are in radians, even if the text names no unit
         return name == "deg" || name == "rad" || name == "atan2" || name == "angle" ||
                any(task.draws) || any(task.variables) || any(task.custom_measures) ||
                std::any_of(factors.begin(), factors.end(),
@@ -267,7 +267,7 @@ std::optional<CompiledFormula> compile_formula(const Formula& formula, const Tas
     const Dimension given = out.expression.dimension();
     if (out.expression.type() != Expression::Type::number) {
         formula_error(formula, "must be a number, or a formula with a number as its result",
-                      "Convert a condition to a number with if, e.g. 10 if side > 0 else 20.",
+                      "Convert a condition to a number with 'if', e.g. 10 if side > 0 else 20.",
                       diagnostics);
     } else if (given == Dimension{}) {
         const bool angle = wanted == Quantity::angle && names_angle(plan, formula.text);
@@ -331,7 +331,7 @@ void check_alone(const CustomMeasure& measure, const Task& task, Diagnostics& di
     }
 }
 
-/// Keeps what rules look back on, and the custom measures that they name.
+/// Plans the look-backs of the rules, and the custom measures that the rules name.
 void plan_what_rules_need(TaskPlan& plan, const std::vector<int>& slots, Diagnostics& diagnostics) {
     std::vector<const Expression*> rules;
     const auto add = [&](const Expression& rule) {
@@ -353,13 +353,12 @@ void plan_what_rules_need(TaskPlan& plan, const std::vector<int>& slots, Diagnos
         if (measure.take == Take::median || measure.window) {
             diagnostics.error(
                 measure.place, measure.window ? "window" : "take",
-                "makes a measure that is known only after the session, but after_trial "
-                "names the measure",
-                "Take another statistic, or leave it out of the rules.");
+                "makes the measure known only after the session, but after_trial names the measure",
+                "Take another statistic, or leave the measure out of the rules.");
             continue;
         }
         const Formula of = formula_of(measure.of, measure.name, "of", measure.place);
-        Diagnostics told;  // plan_custom_measures() reports what is wrong with it
+        Diagnostics told;  // discarded: plan_custom_measures() reports these
         auto compiled = compile_formula(of, plan, plan.quantities, told);
         if (!compiled) continue;
         TaskPlan::RuleMeasure added{{std::move(*compiled), {}, measure.take, 0, states_of(measure)},

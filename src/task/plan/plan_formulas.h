@@ -1,5 +1,4 @@
-// The quantities available to the formulas of a task, and the compilation of the formulas, for its
-// plan.
+// Plans the quantities available to the formulas of a task, and compiles the formulas.
 #pragma once
 
 #include "task/plan/task_plan.h"
@@ -19,8 +18,8 @@ void plan_rules(TaskPlan& plan, Diagnostics& diagnostics);
 Formula formula_of(const std::string& text, const std::string& name, const char* key,
                    const Place& place);
 
-/// Compiles a condition; empty if the text is empty or, with a problem in the diagnostics, is not a
-/// condition.
+/// Compiles a condition; nullopt if the text is empty or has mistakes. Problems go to
+/// `diagnostics`.
 std::optional<Expression> compile_condition(const std::string& text, Quantities& quantities,
                                             const Place& place, const char* key,
                                             Diagnostics& diagnostics);

@@ -1,5 +1,5 @@
-// How each trial's reach is measured (ReachMeasure), frozen in the trial's row of trial-list.csv,
-// in columns named reach_...
+// The measurement of each trial's reach (ReachMeasure), frozen in the trial's row of
+// trial-list.csv, in columns named reach_...
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct ReachPlan {
     Vec3 from_W = Vec3::Zero();  ///< [m]
     Vec3 to_W = Vec3::Zero();
     Vec3 axis_W = Vec3::UnitZ();  ///< axis of the angles; unit vector
-    std::string phases;           ///< phases in which it is measured, e.g. "2 3"
+    std::string phases;           ///< phases in which the reach is measured, e.g. "2 3"
     Measure measure = Measure::angle;
 
     /// Numbers in `phases`.
@@ -25,11 +25,12 @@ struct ReachPlan {
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
         v("reach_finger", f.finger, "", "finger whose reach is measured");
-        v("reach_at", f.distance, "mm", "distance from its start at which the angle is measured");
+        v("reach_at", f.distance, "mm",
+          "distance from the reach's start at which the angle is measured");
         rows::visit_vector(v, "reach_from", f.from_W, "mm", "its start");
         rows::visit_vector(v, "reach_to", f.to_W, "mm", "its target");
         rows::visit_vector(v, "reach_axis", f.axis_W, "1", "axis of the angles");
-        v("reach_phase", f.phases, "", "phases in which it is measured");
+        v("reach_phase", f.phases, "", "phases in which the reach is measured");
         v("reach_measure", f.measure, "", "measured quantity: angle or extent");
     }
 };
@@ -38,14 +39,14 @@ struct ReachPlan {
 /// measure a reach.
 void add_reaches(Table& list, const TaskPlan& plan, const scene::Scene& scene);
 
-/// Name of the first of these columns; the list's own columns precede it.
+/// Name of the first column on reaches; the list's own columns precede it.
 inline constexpr const char* kFirstReachColumn = "reach_finger";
 
 /// The axis of the cell's first perturbation that has one: trials with and without the block's
 /// perturbation are measured alike.
 Vec3 usual_axis(const TaskPlan::Cell& cell);
 
-/// Reads the reaches from trial-list.csv, by trial; none if its task measures none. In a truncated
+/// Reads the reaches from trial-list.csv, by trial; none if the task measures none. In a truncated
 /// line, missing fields are read as an empty finger and NaN.
 std::vector<ReachPlan> read_reaches(const std::string& file);
 

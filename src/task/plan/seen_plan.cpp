@@ -11,7 +11,7 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr size_t kMostLines = 2;   // each in a state and in the task
+constexpr size_t kMostLines = 2;   // lines in a state, and in the task
 constexpr size_t kMostInText = 4;  // numbers
 static_assert(frame::TaskFrame::kMostLines == 2 * kMostLines + 2);  // countdown, feedback
 static_assert(frame::TaskFrame::kMostNumbers == kMostInText * (1 + frame::TaskFrame::kMostLines));
@@ -152,7 +152,7 @@ void SeenPlanner::show(const Show& given, const Place& place, TaskPlan::PlannedS
     if (!given.held_from.empty()) {
         out.held_from = names.find<State>(given.held_from, place, "held_from", diagnostics);
         if (!out.holds_cursor)
-            diagnostics.error(place, "held_from", "is only used by cursor: held",
+            diagnostics.error(place, "held_from", "is used only with 'cursor: held'",
                               "Write cursor: held, or leave it out.");
     }
     if (given.cursor == Cursor::no) {
@@ -185,7 +185,7 @@ void SeenPlanner::show_some(const Node& given, const char* key, size_t first, co
         bool shown = true;
         if (entry.value.kind != Node::Kind::scalar || entry.value.scalar.empty()) {
             diagnostics.error(entry.value.place, entry.key, "must be yes or no",
-                              "Write no to hide it.");
+                              "Write 'no' to hide the item.");
             continue;
         }
         reader(entry.key, shown);

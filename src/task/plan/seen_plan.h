@@ -10,7 +10,8 @@ class SeenPlanner : Planning {
   public:
     explicit SeenPlanner(const Planning& given);
 
-    /// Index of a text among the plan's messages, to which a new text is added; -1 if it is empty.
+    /// Index of a text among the plan's messages, to which a new text is added; -1 if the text is
+    /// empty.
     int text(const std::string& text, const Place& place, const char* key);
     /// Plans the display in the state, apart from its message.
     void plan_state(const State& state, TaskPlan::PlannedState& out);
@@ -28,8 +29,8 @@ class SeenPlanner : Planning {
 
   private:
     void show(const Show& given, const Place& place, TaskPlan::PlannedState& out);
-    /// Reads "name: yes or no" for bodies or fingers; `first`: index of the first of them in
-    /// frames.
+    /// Reads which bodies or fingers are shown, given as "name: yes or no"; `first`: index of the
+    /// first of them in frames.
     template <class T>
     void show_some(const Node& given, const char* key, size_t first, const Place& place,
                    TaskPlan::Looks& out);

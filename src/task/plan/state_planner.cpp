@@ -31,7 +31,7 @@ std::string as_expression(const Formula& number, const TaskPlan& plan, const cha
     return fmt::format("({}) * {} {}", number.text, number.to_si, unit);
 }
 
-/// The expression for a condition of the table; "" for a condition that has none.
+/// The expression for a condition of the table; "" if the condition has no expression.
 std::string as_expression(const Exit& exit, const TaskPlan& plan) {
     const std::string who = quoted(exit.what.empty() ? exit.finger : exit.what);
     const std::string body = quoted(exit.body);
@@ -91,7 +91,7 @@ class StatePlanner : Planning {
         diagnostics.error(place, key, what, remedy, std::move(choices));
     }
 
-    /// The sound, one bit, that `where` starts.
+    /// The sound that starts at `where`, as one bit.
     uint32_t sound(int index, const Place& where, const char* key) {
         if (index < 0 || index >= TaskPlan::kMostSounds) return 0;
         if ((plan.throughout >> index & 1u) != 0)
@@ -102,7 +102,7 @@ class StatePlanner : Planning {
         return 1u << index;
     }
 
-    /// The sound that an exit starts.
+    /// The sound that an exit starts, as one bit.
     uint32_t sound(const Exit& exit) {
         const uint32_t out = sound(exit.sound.index, exit.place, "sound");
         if ((out & plan.going_on) != 0)
@@ -152,7 +152,8 @@ class StatePlanner : Planning {
         return out;
     }
 
-    /// A question that several states ask must be the same in all of them: it has one column.
+    /// A question that several states ask must be the same in all of them, because it has only one
+    /// column.
     void check_same(const AskSpec& ask) {
         for (const AskSpec& known : questions_of(plan.task)) {
             if (known.name != ask.name) continue;
@@ -160,7 +161,7 @@ class StatePlanner : Planning {
                 known.most() == ask.most())
                 return;
             error(ask.place, "name",
-                  fmt::format("'{}' is asked on another scale in another state", ask.name),
+                  fmt::format("'{}' is asked on a different scale in another state", ask.name),
                   "Give one of the two questions another name.");
         }
     }
@@ -211,7 +212,8 @@ class StatePlanner : Planning {
         return out;
     }
 
-    /// Either of the two outcomes; the trial determines which.
+    /// Adds both outcomes of a choice and returns one of them; the trial determines which one
+    /// applies.
     int choice(const Exit& exit) {
         if (plan.comparison < 0)
             error(exit.place, "chooses", "no state has an interval that can be chosen",
@@ -239,7 +241,7 @@ class StatePlanner : Planning {
         return out;
     }
 
-    /// Reports a single word that is not a quantity as a misspelt word of the table.
+    /// Reports a single word that is not a quantity as a misspelt word of kWhenTable.
     void check_word(const Exit& exit) {
         const std::string& text = exit.condition;
         if (!is_word(text) || plan.quantities.find(text)) return;
@@ -277,13 +279,13 @@ class StatePlanner : Planning {
             error(exit.place, "hold", "a trigger has no duration", "Leave it out.");
     }
 
-    /// Plans the finger, hand or body of the condition.
+    /// Checks the finger, hand or body of the condition.
     void check_who(const Exit& exit) {
         if (!exit.what.empty()) {
             const int i = look_up(plan.quantities.things(), exit.what, exit.place, "what",
                                   "neither a body, a finger nor a hand", diagnostics);
             if (!exit.finger.empty())
-                error(exit.place, "finger", "duplicates the key what", "Leave it out.");
+                error(exit.place, "finger", "duplicates the key 'what'", "Leave it out.");
             if (i >= 0 && exit.shown && plan.quantities.thing(exit.what)->body >= 0)
                 error(exit.place, "shown", "applies to fingers and hands, not to bodies",
                       "Leave it out.");
@@ -309,13 +311,13 @@ class StatePlanner : Planning {
             if (plan.outcomes[i].name != exit.outcome) continue;
             if (plan.outcomes[i].ends_session != exit.ends_session) {
                 error(exit.place, "outcome",
-                      fmt::format("'{}' ends the session after one exit, and not after another",
+                      fmt::format("'{}' ends the session after one exit, but not after another",
                                   exit.outcome),
                       "Give the two outcomes different names.");
             }
             if (plan.outcomes[i].hed != exit.hed) {
                 error(exit.place, "hed",
-                      fmt::format("'{}' has other tags after another exit", exit.outcome),
+                      fmt::format("'{}' has different tags after another exit", exit.outcome),
                       "Give the two outcomes different names, or the same tags.");
             }
             if (plan.outcomes[i].redo != exit.redo) {

@@ -9,13 +9,13 @@
 
 namespace dihaptic::task {
 
-/// Allocates nothing, except for the median.
+/// Collects the values and computes the statistic; allocates nothing, except for the median.
 class Taken {
   public:
     explicit Taken(Take take) : take_(take) {}
-    /// An unmeasured value does not count.
+    /// Adds a value; unmeasured values are ignored.
     void add(double value);
-    /// NaN if there was no value.
+    /// The statistic; NaN if no value was added.
     double statistic() const;
     void clear() { *this = Taken(take_); }
 
@@ -24,8 +24,8 @@ class Taken {
     int64_t ticks_ = 0;
     double value_ = 0;         // first, last, least, largest, or mean
     double mean_ = 0;          // for the SD
-    double squares_ = 0;       // of values (rms) or of deviations from the mean (SD), summed
-    std::vector<double> all_;  // for the median
+    double squares_ = 0;       // sum, of the values (rms) or of deviations from the mean (SD)
+    std::vector<double> all_;  // all values, for the median
 };
 
 /// The median; for an even number of values, the mean of the middle two. Reorders the values; NaN

@@ -146,7 +146,7 @@ class Planner : Planning {
     }
     void wrong_hands() {
         diagnostics.error(plan.task.place, "participants",
-                          "must have all fingers of the scene, hand by hand in the scene's order",
+                          "must include all fingers of the scene, hand by hand, in its order",
                           "List the fingers of 'hands' as the scene does, each in one hand.");
     }
 

@@ -40,7 +40,7 @@ struct TextNumber {
 
 struct TaskPlan {
     static constexpr size_t kMostStates = 64;  ///< a set of states has one bit each
-    static constexpr int kMostSounds = frame::TaskFrame::kMostSounds;  ///< a set of sounds too
+    static constexpr int kMostSounds = frame::TaskFrame::kMostSounds;  ///< likewise for sounds
 
     Task task;
     std::vector<Trial> trials;
@@ -61,9 +61,9 @@ struct TaskPlan {
         int finger = 0;        ///< finger with the button
         int outcome = -1;      ///< outcome of the trial; see outcome_of()
         int feedback = -1;
-        uint32_t sounds = 0;  ///< sounds that it starts, one bit each
+        uint32_t sounds = 0;  ///< sounds that the exit starts, one bit each
 
-        /// Whether its condition does not depend on the hand's motion.
+        /// Whether the condition does not depend on the hand's motion.
         bool comes() const {
             return condition.empty() ? exit.has(WhenRow::comes) : !condition.follows_tick();
         }
@@ -82,7 +82,7 @@ struct TaskPlan {
         Pose X_WB;
         scene::Bounds box;
         FormulaVec3 position;
-        /// Used in place of that position; such start poses come after that of the joint's
+        /// Used in place of `position`; such start poses come after the start pose of the joint's
         /// first body.
         std::optional<OnJoint> joint = std::nullopt;
         Formula coordinate{};
@@ -104,9 +104,9 @@ struct TaskPlan {
     };
     /// A body that a state places, and where.
     struct Placement {
-        StartPose pose;  // unless it keeps its position
-        bool moves;      // whether its position changes
-        bool stays;      // whether it is kept there while the state lasts
+        StartPose pose;  // not used if the body keeps its position
+        bool moves;      // whether the body's position changes
+        bool stays;      // whether the body is kept there while the state lasts
     };
     /// Looks of bodies, proxies and targets; the radius of a target is a factor.
     struct Looks {
@@ -118,10 +118,10 @@ struct TaskPlan {
     struct Questions {
         struct Item {
             Question question;
-            std::vector<int> lines;  ///< messages while it is asked
+            std::vector<int> lines;  ///< messages while the question is asked
         };
         std::vector<Item> items;
-        bool is_form = false;      ///< its answers count once they are confirmed
+        bool is_form = false;      ///< the answers take effect once they are confirmed
         std::vector<int> confirm;  ///< messages while the confirmation is awaited
     };
     struct PlannedState {
@@ -129,7 +129,7 @@ struct TaskPlan {
         Looks looks;
         bool holds_cursor = false;
         int held_from =
-            -1;  ///< the cursor is held where it was at the end of this state; -1: the one before
+            -1;  ///< the cursor is held where it was at the end of this state; -1: the last state
         std::vector<int> lines;  ///< messages
         int message = -1;
         int marker = 0;
@@ -159,15 +159,15 @@ struct TaskPlan {
             return state >= 0 && (during[static_cast<size_t>(perturbation)] >> state & 1u) != 0;
         }
     };
-    std::vector<Cell> cells;            ///< by round, last those outside all; then by condition
+    std::vector<Cell> cells;            ///< by round, then by condition; cells outside rounds last
     size_t bodies = 0;                  ///< number in the scene
     std::vector<double> finger_radius;  ///< radius of the sphere around each finger's shape [m]
-    double longest_delay = 0;           ///< in the loads [s]
+    double longest_delay = 0;           ///< of any load [s]
     int move_away = -1;                 ///< message while a finger obstructs a body
 
     struct Page {
         PageSpec spec;
-        int message = -1;  ///< its text
+        int message = -1;  ///< text of the page
 
         /// One key that turns the page.
         char any_key() const { return spec.key.empty() ? '1' : spec.key.front(); }
@@ -175,7 +175,7 @@ struct TaskPlan {
     std::vector<Page> pages;
     struct Opening {
         double rest = 0;  ///< [s]
-        int first = 0;    ///< index of its first page
+        int first = 0;    ///< index of the opening's first page
         int pages = 0;
     };
     std::vector<Opening> openings;  ///< by block of the task
@@ -191,7 +191,7 @@ struct TaskPlan {
         struct Draw {
             int slot;
             double si;                  ///< unit of the draw's name
-            std::vector<double> codes;  ///< if its values are texts
+            std::vector<double> codes;  ///< codes of the draw's values, if they are texts
             double value(double drawn) const noexcept {
                 return codes.empty() ? si * drawn : codes[static_cast<size_t>(drawn)];
             }
@@ -214,33 +214,33 @@ struct TaskPlan {
     /// A custom measure of the task.
     struct Measured {
         CompiledFormula value;  ///< with the slots of `measured`
-        Expression when;        ///< condition for the ticks that count; empty: all do
+        Expression when;        ///< condition that selects ticks; empty: all
         Take take = Take::max;
-        double window = 0;    ///< of moving means [s]; 0: none
+        double window = 0;    ///< length of moving means [s]; 0: none
         uint64_t states = 0;  ///< one bit each
 
-        /// Its value in a tick, as written in the file; NaN if the tick does not count.
+        /// Its value in a tick, as written in the file; NaN if `when` excludes the tick.
         double in_tick(std::span<const double> quantities) const noexcept {
             if (!when.empty() && when(quantities) == 0) return kUnmeasured;
             return value.value(quantities);
         }
     };
-    Quantities measured;  ///< `quantities`, and further ones for measures
+    Quantities measured;  ///< `quantities`, and further quantities for measures
     /// A custom measure that rules use, e.g. measure.hold for hold_N.
     struct RuleMeasure {
         Measured measured;  ///< with the slots of `quantities`
-        int slot = -1;      ///< of its value when a trial has ended
+        int slot = -1;      ///< slot of its value when a trial has ended
     };
     std::vector<RuleMeasure> rule_measures;
-    std::vector<LookBack> look_backs;  ///< of rules, each after those that it depends on
+    std::vector<LookBack> look_backs;  ///< those of rules, each after those that it depends on
     std::vector<Measured> custom_measures;
     /// Update of a variable after a trial.
     struct Change {
         std::optional<Expression> when;
         size_t variable = 0;
         CompiledFormula to;
-        size_t look_backs = 0;  ///< end of its look-backs in the plan's list; they begin where
-                                ///< those of the previous rule end
+        size_t look_backs = 0;  ///< end of the rule's look-backs in the plan's list; they begin
+                                ///< where those of the previous rule end
     };
     Quantities between;  ///< quantities for the end of a block: only variables
     Symbols symbols;
@@ -253,11 +253,11 @@ struct TaskPlan {
     struct Level {
         size_t variable = 0;
         double standard = 0;         ///< [SI]
-        double si = 1;               ///< unit of its name
-        std::vector<double> values;  ///< at which trials are checked before the session [SI]
+        double si = 1;               ///< unit of the number's name
+        std::vector<double> values;  ///< levels at which trials are checked before the session [SI]
     };
     std::vector<Level> levels;
-    std::vector<int> level_of_procedure;  ///< index of the level; -1: it chooses a share
+    std::vector<int> level_of_procedure;  ///< index of the level; -1: the procedure chooses a share
     int comparison = -1;                  ///< draw of the comparison interval
     int chose_comparison = -1;            ///< outcome
     int chose_standard = -1;              ///< outcome
@@ -271,8 +271,8 @@ struct TaskPlan {
         return static_cast<size_t>(trial.round) * conditions + static_cast<size_t>(trial.condition);
     }
     const Cell& cell(const Trial& trial) const { return cells[cell_index(trial)]; }
-    /// Whether levels, and shares that procedures choose, have their standard in the state; -1: no
-    /// state.
+    /// Whether levels, and shares that procedures choose, have their standard value in the state;
+    /// -1: no state.
     bool shows_standard(const Trial& trial, int state) const noexcept {
         return comparison >= 0 && state >= 0 &&
                states[static_cast<size_t>(state)].interval != interval_of(trial);

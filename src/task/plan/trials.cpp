@@ -63,7 +63,7 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
     return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
-/// Finds things by name, for lists with thousands of trials.
+/// Finds things by name quickly, for lists with thousands of trials.
 class Index {
   public:
     template <class Thing>
@@ -165,7 +165,7 @@ void insert_trials(const Insert& insert, Random& random, std::vector<Trial>& tri
     for (int k = 0; k < insert.count; ++k)
         which[static_cast<size_t>(k)] += (insert.count - 1 - k) * (insert.gap - 1);
     const std::vector<int>& conditions = insert.conditions.indices;
-    size_t left = which.size();  // they are inserted from the last to the first
+    size_t left = which.size();  // trials are inserted from the last to the first
     for (const int i : which) {
         Trial extra = trials[static_cast<size_t>(i)];
         --left;
@@ -195,7 +195,7 @@ std::vector<Trial> trials_of(const Task& task, const Block& block, int round, in
         deal_conditions(conditions, block.order, number, from, dealt);
         return dealt;
     };
-    std::vector<Trial> out = deal(random);  // with `own` too, since inserted trials are drawn later
+    std::vector<Trial> out = deal(random);  // even if `own` is used, to advance `random`
     if (own) out = deal(*own);
     for (size_t i = 0; i < out.size() && block.ramp > 0; ++i)
         out[i].share = std::min(1.0, static_cast<double>(i + 1) / block.ramp);
@@ -211,7 +211,8 @@ std::string perturbations_cell(const Task& task, const std::vector<int>& perturb
     return fmt::format("{}", fmt::join(names, kBetweenNames));
 }
 
-/// The perturbations in such a cell; -1 for an unknown name. A name can itself contain " + ".
+/// The perturbations in a cell of the column `perturbation`; -1 for an unknown name. A name can
+/// itself contain " + ".
 std::vector<int> read_perturbations(const Index& perturbations, const std::string& cell) {
     if (const int one = perturbations(cell); one >= 0) return {one};
     std::vector<int> out;
@@ -233,7 +234,7 @@ void draw_for(std::vector<Trial>& trials, const Task& task, int number, uint64_t
     }
 }
 
-/// The cells of own_columns().
+/// Adds the cells of own_columns().
 void add_own_cells(const Task& task, const std::vector<Factor>& factors, const Trial& trial,
                    std::vector<Table::Cell>& row) {
     for (const Factor& factor : factors) {

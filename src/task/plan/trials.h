@@ -26,7 +26,7 @@ struct Trial {
 
 /// Separator of names in the column `perturbation`.
 inline constexpr std::string_view kBetweenNames = " + ";
-/// Whether a cell of that column contains the perturbation, alone or with others.
+/// Whether a cell of the column `perturbation` names the perturbation, alone or with others.
 bool names_perturbation(const std::string& cell, const std::string& name);
 
 /// Returns 0 to n - 1 in a participant's order. Shuffled: with `random`. Latin square: row
@@ -75,13 +75,13 @@ class TrialQueue {
     int trial() const { return queue_[at_]; }
     /// Number of the attempt at that trial, from 1.
     int attempt() const { return attempts_[static_cast<size_t>(trial())]; }
-    /// Ends the trial. With `redo` it is repeated according to the policy, unless it has reached
-    /// most_attempts.
+    /// Ends the trial. With `redo` the trial is repeated according to the policy, unless it has
+    /// reached most_attempts.
     void finish(bool redo) noexcept;
 
-    /// Replays an earlier part of the session, in which this attempt came next. Trials that were
-    /// due before it remain in the queue, since their outcomes are unknown. Returns false if the
-    /// trial is no longer in the queue.
+    /// Moves this attempt to the front, when an earlier part of the session in which it came next
+    /// is replayed. Trials that were due before it remain in the queue, since their outcomes are
+    /// unknown. Returns false if the trial is no longer in the queue.
     bool go_to(int trial, int attempt) noexcept;
 
     /// Leaves out the remaining trials.

@@ -12,14 +12,14 @@ namespace dihaptic::task {
 
 class Constant {
   public:
-    /// `trials`: number after which it ends; the last round may be incomplete. Throws Error if
-    /// there is no level, or if one is not a number or is repeated.
+    /// `trials`: number of trials after which the procedure ends; the last round may be incomplete.
+    /// Throws Error if there is no level, or if one is not a number or is repeated.
     Constant(const std::vector<double>& levels, int trials, Random& random);
 
     double level() const { return levels_[std::min(answered_, levels_.size() - 1)]; }
     void answer(double /*level*/, bool /*yes*/) { ++answered_; }
     bool done() const { return answered_ >= levels_.size(); }
-    /// None: an estimate requires a fit to the answers.
+    /// No estimate: it would require a fit to the answers.
     Estimate estimate() const { return {}; }
 
   private:

@@ -55,7 +55,8 @@ void check(const QuestSettings& s) {
     const model::Psychometric f = weibull(s);
     const double reach = s.grain * s.cells;
     if (f.probability(-reach) >= s.target || f.probability(reach) <= s.target)
-        throw Error({}, "cells", "times grain is so small that the function does not reach target",
+        throw Error({}, "cells",
+                    "times 'grain' is so small that the function does not reach 'target'",
                     "give more cells, or a coarser grain");
 }
 

@@ -17,14 +17,14 @@ namespace dihaptic::task {
 
 struct QuestSettings {
     double prior_mean = 0;  ///< mean of the threshold's prior, log10
-    double prior_sd = 1;    ///< standard deviation of the prior, log10; be generous
+    double prior_sd = 1;    ///< standard deviation of the prior, log10; choose it generously
     double target = 0.82;   ///< probability of "yes" at threshold
     double slope = 3.5;     ///< beta
     double guess = 0.5;     ///< gamma
     double blind = 0.01;    ///< delta: share of trials answered blindly
     double grain = 0.01;    ///< step of the grid, log10
-    int cells = 500;        ///< even: the grid reaches cells / 2 grains either way from prior_mean
-    int trials = 40;        ///< number after which it ends
+    int cells = 500;        ///< even; the grid extends cells / 2 grains to each side of prior_mean
+    int trials = 40;        ///< number of trials after which the procedure ends
 };
 
 class Quest {

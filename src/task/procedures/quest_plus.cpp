@@ -43,7 +43,7 @@ void check(const QuestPlusSettings& s) {
         problems.error({}, "guess", "is not in [0, 1)",
                        "give the probability of a correct guess, e.g. 0.5 for two choices");
     else if (!s.guess_is_lapse && !s.lapses.empty() && s.guess + s.lapses.back() >= 1)
-        problems.error({}, "lapses", "and guess leave no range between them",
+        problems.error({}, "lapses", "and 'guess' leave no range between them",
                        "guess + lapse must be below 1");
     if (s.trials < 1) problems.error({}, "trials", "is below 1", "give the number of trials");
     problems.throw_if_errors();

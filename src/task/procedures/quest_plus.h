@@ -26,7 +26,7 @@ struct QuestPlusSettings {
     /// Uses the lapse rate as the guess rate instead: for "more or less?" or "left or right?",
     /// where the function goes from 0 to 1 apart from lapses.
     bool guess_is_lapse = false;
-    int trials = 40;  ///< number after which it ends
+    int trials = 40;  ///< number of trials after which the procedure ends
 };
 
 class QuestPlus {

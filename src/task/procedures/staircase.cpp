@@ -29,7 +29,7 @@ void check(const StaircaseSettings& s) {
     require(std::isfinite(s.start) && s.start >= s.lowest && s.start <= s.highest, "start",
             "is not between 'lowest' and 'highest'", "start at a level in that range");
     require(s.reversals >= 0 && s.trials >= 0 && s.reversals + s.trials > 0, "reversals",
-            "and trials set no end", "give at least one of them, above 0");
+            "and 'trials' set no end", "give at least one of them, above 0");
     require(
         s.skipped_reversals >= 0 && (s.reversals == 0 || s.skipped_reversals + 2 <= s.reversals),
         "skipped_reversals", "leaves fewer than two reversals",

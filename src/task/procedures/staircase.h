@@ -1,4 +1,4 @@
-// The k-down 1-up staircase: k answers "yes" in a row lower the level, one "no" raises it. With
+// The k-down 1-up staircase: k "yes" answers in a row lower the level, and one "no" raises it. With
 // steps up U and down D, it converges to the level at which they balance, p^k D = (1 - p^k) U:
 //
 //     p = (1 + D/U)^(-1/k)
@@ -17,7 +17,7 @@
 namespace dihaptic::task {
 
 struct StaircaseSettings {
-    int down_after = 2;  ///< k: number of consecutive answers "yes" that lower the level
+    int down_after = 2;  ///< k: number of consecutive "yes" answers that lower the level
     double start = 0;    ///< level of the first trial
     /// Step up after 0, 1, 2, ... reversals; the last value applies from then on.
     std::vector<double> steps_up = {1};
@@ -25,8 +25,8 @@ struct StaircaseSettings {
     /// Limits of the levels.
     double lowest = -std::numeric_limits<double>::infinity();
     double highest = std::numeric_limits<double>::infinity();
-    /// Numbers of reversals or trials after which it ends; 0: no such limit. At least one is
-    /// required.
+    /// Numbers of reversals or trials after which the staircase ends; 0: no such limit. At least
+    /// one is required.
     int reversals = 0;
     int trials = 0;
     /// Number of initial reversals that are ignored in the estimate.
@@ -64,7 +64,7 @@ class Staircase {
     StaircaseSettings settings_;
     double level_;
     int trials_ = 0;
-    int in_a_row_ = 0;   // number of answers "yes" since the last change of level
+    int in_a_row_ = 0;   // number of "yes" answers since the last change of level
     int direction_ = 0;  // direction of the last change: -1 or 1; 0 before the first
     std::vector<double> reversals_;
 };

@@ -12,15 +12,15 @@
 namespace dihaptic::task {
 
 /// The largest number of keys that wait until a tick reads them; further ones are refused. A window
-/// that draws slowly passes on several at once.
+/// that draws slowly passes several keys on at once.
 constexpr size_t kMostKeys = 64;
 
 /// A click on a question's line.
 struct Click {
-    int32_t item = -1;  ///< index of the question; their number: a click on "done"; -1: no click
+    int32_t item = -1;  ///< index of the question; number of questions: "done"; -1: no click
     int32_t place = 0;  ///< in millionths of the line's length, from its left end
 
-    /// `share`: of the line's length, from 0 to 1.
+    /// `share`: position as a share of the line's length, from 0 to 1.
     static Click at(size_t item, double share) noexcept {
         return {static_cast<int32_t>(item), static_cast<int32_t>(std::lround(share * kPlaces))};
     }
@@ -32,7 +32,7 @@ struct Click {
 
 class Answering {
   public:
-    /// Begins the questions of a state; all are open.
+    /// Begins the questions of a state, all of them unanswered.
     void begin(const TaskPlan::Questions& questions) noexcept;
     void press(char key) noexcept;
     void click(const Click& click) noexcept;
@@ -45,7 +45,7 @@ class Answering {
     bool answered() const noexcept;
     /// Index of the question being asked; the number of questions, once all are answered.
     size_t item() const noexcept { return item_; }
-    /// The answer to a question, in the unit of its name; NaN until it is given.
+    /// The answer to a question, in the unit of the answer's name; NaN until it is given.
     double answer(size_t item) const noexcept { return answers_[item]; }
     /// The number typed so far, or the answer.
     double shown() const noexcept { return rating_.shown(); }

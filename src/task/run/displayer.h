@@ -23,7 +23,7 @@ class Displayer {
     void order(double now, frame::TaskFrame& out) noexcept;
 
   private:
-    /// The pose from the visual map `ticks` ago.
+    /// The pose that the visual map gave `ticks` ticks ago.
     const Pose& past(size_t thing, long ticks) const noexcept;
     void displace(const frame::VisualMap& map, frame::TaskFrame& out) const noexcept;
 
@@ -32,7 +32,7 @@ class Displayer {
     int object_;  // -1: none
     double tick_;
     Random random_;
-    Vec3 shake_ = Vec3::Zero();  // with unit standard deviation
+    Vec3 shake_ = Vec3::Zero();  // noise with unit standard deviation
     double shaken_ = -1;         // time of the last draw [s]
     size_t things_;              // number of things: the fingers, then the object
     size_t bodies_ = 0;          // number in the scene
@@ -41,11 +41,11 @@ class Displayer {
     size_t newest_ = 0;       // row
     size_t seen_ = 0;         // number of filled rows
     int state_ = -1;
-    const TaskPlan::Looks* looks_ = nullptr;  // of the condition
+    const TaskPlan::Looks* looks_ = nullptr;  // looks of the condition
     bool holds_ = false;
-    std::vector<Pose> held_;   // by finger
-    std::vector<Pose> ended_;  // by state, and finger: where it was displayed when the state ended
-    std::vector<char> has_ended_;  // by state, in this trial
+    std::vector<Pose> held_;       // by finger
+    std::vector<Pose> ended_;      // by state and finger: displayed pose when the state ended
+    std::vector<char> has_ended_;  // by state: whether it has ended in this trial
 };
 
 }  // namespace dihaptic::task

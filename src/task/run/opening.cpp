@@ -23,8 +23,8 @@ void note_checksum(PageSpec& page) {
     const bool is_png = bytes.starts_with("\x89PNG\r\n\x1a\n");
     if (!is_png && !bytes.starts_with("GIF87a") && !bytes.starts_with("GIF89a"))
         throw Error("is neither a PNG nor a GIF file",
-                    "Convert it with an image editor; or a video, for a picture that moves: ffmpeg "
-                    "-i video.mp4 picture.gif.");
+                    "Convert it with an image editor; for an animated picture, convert a video: "
+                    "ffmpeg -i video.mp4 picture.gif.");
     page.checksum = checksum_of(bytes);
 }
 
@@ -70,7 +70,7 @@ bool Opening::over(const Trial& next, bool rests, char key, double now) noexcept
         block_ = next.block;
         at_ = rests && of_block().rest > 0 ? -1 : 0;
         since_ = now;
-        key = 0;  // pressed before the page was shown
+        key = 0;  // a key pressed before the page was shown is ignored
     }
     if (at_ < 0) {
         if (rest_left(now) > kTolerance) return false;

@@ -7,7 +7,7 @@
 namespace dihaptic::task {
 
 /// Converts the paths of the pages' pictures from relative to `folder` to relative to the program's
-/// folder. Pictures that are missing or are not PNG files go to `diagnostics`.
+/// folder. Pictures that are missing or are neither PNG nor GIF files go to `diagnostics`.
 void find_pictures(Task& task, const std::string& folder, Diagnostics& diagnostics);
 
 /// Longest duration of the break and timed pages before a block [s].
@@ -21,7 +21,7 @@ class Opening {
     /// Whether the block's opening is over, so that the trial can start. Call in each tick before
     /// the trial. `rests`: the block's break takes place; `key`: pressed since the last tick, or 0.
     bool over(const Trial& next, bool rests, char key, double now) noexcept;
-    /// Whether an opening is in progress; its trial is the next one.
+    /// Whether an opening is in progress; the trial after it is the next one.
     bool on() const noexcept { return on_ != 0; }
     /// Index of the current page; -1: none.
     int page() const noexcept;

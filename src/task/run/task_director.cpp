@@ -48,7 +48,7 @@ double coordinate_of(int joint, const frame::Frame& last) noexcept {
     return std::isnan(frame.angle) ? frame.displacement : frame.angle;
 }
 
-/// The statistic of the values at the ends of the last trials; `sorted`: memory for as many values.
+/// The statistic of the values at the ends of the last trials; `sorted`: memory for sorting them.
 double statistic_of(LookBack::Statistic statistic, const std::vector<double>& x,
                     std::vector<double>& sorted) noexcept {
     if (x.empty()) return kUnmeasured;
@@ -129,7 +129,7 @@ void TaskDirector::operator()(const frame::Frame& last, std::span<const frame::H
     const double now = last.sequence < 0 ? 0 : seconds(last.time) + tick_;
     motions_.add(last, handles);
     displayer_.see(last);
-    // texts contain quantities between trials too
+    // quantities appear in texts between trials too
     const std::span<const double> values = numbers_.quantities().values();
     if (!taken_.empty()) std::ranges::copy(values, in_frame_.begin());
     numbers_.quantities().update(last, handles);
@@ -260,8 +260,8 @@ bool TaskDirector::clear(const frame::Frame& last) noexcept {
                        });
 }
 
-/// Whether a body can be placed there. A body placed onto a finger would push the finger out; if a
-/// body between pressing fingers were removed, the fingers would collide.
+/// Whether a body can be placed at X_WB. A body placed onto a finger would push the finger out; if
+/// a body between pressing fingers were removed, the fingers would collide.
 bool TaskDirector::clear(const frame::Frame& last, const TaskPlan::StartPose& start_pose,
                          const Pose& X_WB) noexcept {
     if (last.sequence < 0) return true;
@@ -302,7 +302,7 @@ void TaskDirector::enter(int state, double now, frame::Commands& commands) noexc
     sounder_.enter(plan_.states[static_cast<size_t>(state)]);
     state_ = state;
     entered_ = now;
-    numbers_.quantities().set(Quantities::kTimeInState, 0);  // drives use it in this tick
+    numbers_.quantities().set(Quantities::kTimeInState, 0);  // drives use this value in this tick
     answering_.begin(plan_.states[static_cast<size_t>(state)].questions);
     std::fill(judged_.begin(), judged_.end(), Judged{});
     std::fill(is_put_.begin(), is_put_.end(), 0);
@@ -494,7 +494,8 @@ void TaskDirector::take_measures(const frame::Frame& last) noexcept {
     }
 }
 
-/// Sets some of what rules look back on. `counts`: the ended attempt is among the last trials.
+/// Sets some of the statistics over earlier trials that rules use. `counts`: whether they include
+/// the ended attempt.
 void TaskDirector::look_back(size_t from, size_t to, bool counts) noexcept {
     Quantities& quantities = numbers_.quantities();
     for (size_t i = from; i < to; ++i) {
@@ -529,7 +530,7 @@ void TaskDirector::follow_rules(int outcome, bool redo) noexcept {
         redo && plan_.task.redo != Redo::never && last_attempt_ < plan_.task.most_attempts;
     size_t looked = 0;
     for (const TaskPlan::Change& change : plan_.changes) {
-        // a rule sees what the rules before it have set, in this trial too
+        // the statistics of a rule include what earlier rules have set in this trial
         look_back(std::exchange(looked, change.look_backs), change.look_backs, !again);
         if (change.when && (*change.when)(quantities.values()) == 0) continue;
         const double value = change.to.value(quantities.values());
@@ -592,8 +593,8 @@ double TaskDirector::share_of_trial() const noexcept {
     return plan_.task.procedures[static_cast<size_t>(trial().procedure)].share(level());
 }
 
-/// Passes the outcome of the ending trial to its procedure. An outcome that is neither 'yes' nor
-/// 'no' of the procedure is not an answer.
+/// Passes the outcome of the ending trial to its procedure. An outcome that is neither the
+/// procedure's 'yes' nor its 'no' is not an answer.
 void TaskDirector::take_answer(int outcome) noexcept {
     if (trial().procedure < 0) return;
     const auto i = static_cast<size_t>(trial().procedure);
@@ -664,7 +665,7 @@ void TaskDirector::order(double now, frame::Commands& commands) const noexcept {
         const auto i = static_cast<size_t>(p);
         if (!cell.acts(p, state_)) continue;
         const double part = cell.perturbations[i].share_at(now - began_[i]);
-        if (part == 0) continue;  // its profile has not started or is over
+        if (part == 0) continue;  // the perturbation's profile has not started or is over
         // the trial's share, without the profile, whose effect is visible in the orders
         const double share = share_of_trial();
         if (share == 0 && plan_.shows_standard(trial(), state_)) continue;

@@ -39,8 +39,8 @@ class TaskDirector {
     /// Ends the trial in the next tick as skipped, without repetition. May be called from any
     /// thread.
     void skip() noexcept { skip_.store(true, std::memory_order_relaxed); }
-    /// Makes the director ask `between`, which must outlive it, before each attempt. Call before
-    /// the first tick.
+    /// Makes the director ask `between`, which must outlive the director, before each attempt. Call
+    /// before the first tick.
     void decide_by(TrialControl& between) noexcept;
     /// Restarts a running trial. Call between two ticks.
     void interrupt() noexcept {
@@ -55,7 +55,7 @@ class TaskDirector {
     const TrialNumbers& numbers() const noexcept { return numbers_; }
     /// A finger that keeps a body from being placed at its start pose. Call between ticks.
     struct Obstacle {
-        int body = -1;    ///< -1: there was none yet
+        int body = -1;    ///< -1: no obstacle so far
         int finger = -1;  ///< -1: a finger presses the body
     };
     Obstacle obstacle() const noexcept { return obstacle_; }
@@ -74,9 +74,9 @@ class TaskDirector {
     /// Starts the next trial once the last feedback and the block's pages are over and bodies can
     /// be placed at their start poses.
     void begin(const frame::Frame& last, char key, double now, frame::Commands& commands) noexcept;
-    /// Asks the program that decides between trials, if there is one.
+    /// Asks the program that decides about the next attempt, if there is one.
     void ask(int attempt, int outcome, double now) noexcept;
-    /// Whether the program that decides between trials has answered or is too late.
+    /// Whether that program has answered or is too late.
     bool decided(double now) noexcept;
     void follow(const Decision& decision, double now) noexcept;
     void enter(int state, double now, frame::Commands& commands) noexcept;
@@ -102,7 +102,7 @@ class TaskDirector {
     /// Like operator(), but without looks, sounds and texts.
     void direct(const frame::Frame& last, std::span<const frame::Handle> handles, double now,
                 frame::Commands& commands) noexcept;
-    /// Orders the texts after the message, or the page in their place.
+    /// Orders the texts after the message, or the page shown in place of them.
     void say(double now, frame::TaskFrame& out) const noexcept;
     void say(int message, double now, frame::TaskFrame& out) const noexcept;
     /// Current value of a number in a text; NaN if there is none.
@@ -140,12 +140,12 @@ class TaskDirector {
     int last_attempt_ = 0;
     /// State of an exit's condition.
     struct Judged {
-        double since = -1;  // time from which it has held; -1: it does not hold [s]
-        bool met = false;   // it has held long enough since then
-        int count = 0;      // number of times that it was met in the state
+        double since = -1;  // time since which the condition has held [s]; -1: it does not hold
+        bool met = false;   // the condition has held long enough since then
+        int count = 0;      // number of times that the condition was met in the state
     };
     std::vector<Judged> judged_;
-    std::vector<char> is_put_;        // by placement in the state: whether it has been done
+    std::vector<char> is_put_;        // by placement in the state: whether the body has been placed
     std::vector<Pose> put_at_;        // by placement: pose of its body
     std::vector<Pose> drive_from_;    // by drive: pose of its body at the state's start
     std::vector<double> motor_from_;  // by motor: coordinate of its joint at the state's start
@@ -162,9 +162,9 @@ class TaskDirector {
     double ask_until_ = 0;  // time limit for the decision [s]
     ValueRing<char> keys_{kMostKeys};
     std::atomic<Click> clicked_{Click{}};
-    std::vector<Taken> taken_;                  // by measure that rules name
+    std::vector<Taken> taken_;                  // one for each measure that rules name
     std::vector<double> in_frame_;              // quantities in the last Frame
-    std::vector<frame::Handle> frame_handles_;  // its handles
+    std::vector<frame::Handle> frame_handles_;  // handles in the last Frame
     /// Values at the ends of the last trials, by look-back.
     struct Past {
         std::vector<double> values;  // a ring, filled from the beginning

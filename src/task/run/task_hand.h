@@ -34,7 +34,7 @@ class TaskHand final : public SeeingDriver {
     std::shared_ptr<const TaskPlan> plan_;
     TrialNumbers numbers_;
     std::vector<hand::FingerPlace> places_;
-    std::vector<Posture> start_;  // by finger, like the next ones
+    std::vector<Posture> start_;  // by finger, like the following members
     std::vector<Phase> phases_;
     int trial_ = 0;
     int attempt_ = 0;

@@ -1,8 +1,8 @@
-// TrialControl links a task's director to a program that makes decisions between trials, outside
-// the tick: a script that chooses the variables of the next trial, or the next trial itself. In
-// real time neither side waits for the other; late decisions are discarded, and the trials continue
-// as in the file. On the virtual clock the director waits, so that a rehearsal makes the same
-// decisions as a session.
+// TrialControl links a task's director to a program that decides, before each attempt and outside
+// the tick, how the session goes on: a script that chooses the variables of the next trial, or the
+// next trial itself. In real time neither side waits for the other; late decisions are discarded,
+// and the trials continue as in the file. On the virtual clock the director waits, so that a
+// rehearsal makes the same decisions as a session.
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ using VariableValues = std::array<double, frame::TaskFrame::kMostVariables>;
 /// A question: the result of an attempt, on which a decision is requested before the next attempt
 /// starts.
 struct Ended {
-    int64_t number = 0;          ///< of the question, from 1
-    int32_t trial = 0;           ///< from 1; 0: at the session's start
+    int64_t number = 0;          ///< number of the question, from 1
+    int32_t trial = 0;           ///< trial that ended, from 1; 0: at the session's start
     int32_t attempt = 0;         ///< from 1
     int32_t outcome = -1;        ///< index in the plan
     VariableValues variables{};  ///< after the file's rules [SI]
@@ -32,7 +32,7 @@ struct Ended {
 
 /// The decision about the next attempt.
 struct Decision {
-    int64_t number = 0;    ///< of the question
+    int64_t number = 0;    ///< number of the question
     int32_t next = 0;      ///< number of a trial pending in the block; 0: file order
     int32_t message = -1;  ///< index in the plan, shown as feedback; -1: none
     VariableValues variables = unchanged();  ///< NaN: unchanged [SI]
@@ -67,7 +67,7 @@ class TrialControl {
         const Decision& newest = decisions_.read();
         return newest.number == asked_ ? &newest : nullptr;
     }
-    /// Whether answers can be expected.
+    /// Whether no more answers will come.
     bool gone() const noexcept { return gone_; }
     void note_late() noexcept { late_.fetch_add(1, std::memory_order_relaxed); }
     void note_refused() noexcept { refused_.fetch_add(1, std::memory_order_relaxed); }

@@ -41,7 +41,7 @@ void look_at(int index, size_t trial, const TrialNumbers& numbers, TaskPlan& pla
     } else {
         diagnostics.warning(
             f.place, f.key, say,
-            "It is kept within these bounds; clamp() would make this explicit in the file.");
+            "The value is kept within these bounds; clamp() would make this explicit in the file.");
     }
 }
 

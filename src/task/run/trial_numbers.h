@@ -1,6 +1,6 @@
 // The numbers of a trial that are formulas in the file (docs/files.md): resolved once, at the
-// trial's start, from its draws, its condition's factors and the variables. Each participant in the
-// trials has a separate object: the director, and the hand that sees the Frames.
+// trial's start, from its draws, its condition's factors and the variables. The director and the
+// hand that sees the Frames each have a separate object.
 #pragma once
 
 #include "frame/frame.h"
@@ -8,14 +8,15 @@
 
 namespace dihaptic::task {
 
-/// Once constructed, it allocates nothing.
+/// Evaluates the numbers of the current trial. Once constructed, it allocates nothing.
 class TrialNumbers {
   public:
-    /// `plan` must outlive it.
+    /// `plan` must outlive the object.
     explicit TrialNumbers(const TaskPlan& plan);
 
-    /// `trial`: index in the plan. `variables`: their values [SI]. `state`: current state, in which
-    /// levels of procedures may have their standard; -1: they have their values in the variables.
+    /// `trial`: index in the plan. `variables`: values of the variables [SI]. `state`: current
+    /// state, in which levels of procedures may have their standard; -1: they have their values in
+    /// the variables.
     void begin(int trial, int attempt, std::span<const frame::VariableFrame> variables,
                int state = -1) noexcept;
     /// Starts the attempt if it is a new attempt at a trial, or if the state belongs to another
@@ -26,7 +27,7 @@ class TrialNumbers {
     void restart() noexcept { trial_ = 0; }
 
     const TaskPlan::Cell& cell() const noexcept { return cells_[cell_]; }
-    /// A number of a state. The numbers of the cell have been set directly.
+    /// The value of a state's number. The numbers in cell() already have their values.
     double of(const Formula& f) const noexcept {
         return f.index < 0 ? f.value : resolved_[static_cast<size_t>(f.index)];
     }
@@ -39,7 +40,7 @@ class TrialNumbers {
     std::span<const double> values() const noexcept { return quantities_.values(); }
     /// Sets the variables for the expressions that use them.
     void set(std::span<const frame::VariableFrame> variables) noexcept;
-    /// Sets only the answers among them, which change within an attempt.
+    /// Sets only the answers among the variables, which change within an attempt.
     void set_answers(std::span<const frame::VariableFrame> variables) noexcept;
     /// Number of values outside the bounds of a formula, and index of the last such formula; -1:
     /// none.
@@ -67,7 +68,7 @@ class TrialNumbers {
     size_t cell_ = 0;
     int trial_ = 0;  // from 1; 0: none yet
     int attempt_ = 0;
-    bool standard_ = false;  // levels have their standard
+    bool standard_ = false;  // levels have their standard values
     int bounded_ = 0;
     int last_bounded_ = -1;
 };

@@ -18,7 +18,7 @@ struct Case {
 };
 
 constexpr model::Psychometric kNormal{model::Sigmoid::normal, 0.35, 0.12, 0.5, 0};
-/// The function that QUEST assumes, for the logarithm; 10^threshold is the same.
+/// The function that QUEST assumes for the logarithm of the level, written for the level itself.
 constexpr model::Psychometric kWeibull{model::Sigmoid::weibull, 0.35, 3.5, 0.5, 0};
 constexpr model::Psychometric kFlat{model::Sigmoid::weibull, 0.35, 2.5, 0.5, 0};
 constexpr model::Psychometric kSteep{model::Sigmoid::weibull, 0.35, 5, 0.5, 0};
@@ -69,7 +69,8 @@ TEST(Levels, ThresholdsLieInTheirIntervals) {
             held += track.share(interval.low) <= truth && truth <= track.share(interval.high);
             bias += (track.share(fit.fit->function.threshold) - truth) / truth / kRuns;
         }
-        fmt::print("{}: held {} of {}, bias {:.3f} of the threshold\n", c.name, held, kRuns, bias);
+        fmt::print("{}: threshold in {} of {} intervals, bias {:.3f} of the threshold\n", c.name,
+                   held, kRuns, bias);
         EXPECT_GE(held, 0.90 * kRuns) << c.name;
         if (c.as_taken) {
             EXPECT_LE(held, 0.98 * kRuns) << c.name;

@@ -65,8 +65,9 @@ TEST(Thresholds, OfTwentyFiveAnswersAreRough) {
         held += interval.low <= truth && truth <= interval.high ? 1 : 0;
     }
     const double coverage = static_cast<double>(held) / kObservers;
-    fmt::print("bias {:.2f} and rms error {:.2f} of the threshold; intervals hold it in {:.2f}\n",
-               bias, std::sqrt(square), coverage);
+    fmt::print(
+        "bias {:.2f} and rms error {:.2f} of the threshold; intervals contain it in {:.2f}\n", bias,
+        std::sqrt(square), coverage);
     // the README calls the thresholds rough; if they improve, it must change
     EXPECT_GT(std::sqrt(square), 0.5);
     EXPECT_LT(std::sqrt(square), 5);

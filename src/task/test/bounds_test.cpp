@@ -1,5 +1,5 @@
 // Tests that every number in a file has two finite bounds, so that none can be added without them,
-// and that a value that overflows by its unit is refused.
+// and that a value that overflows when its unit is converted is refused.
 #include <gtest/gtest.h>
 
 #include "frame/settings.h"
@@ -42,7 +42,7 @@ TEST(Bounds, AreOfExperimentsTasksAndProcedures) {
     }
 }
 
-/// The problems in reading a line of settings.
+/// The problems found when a line of settings is read.
 std::string said_of(const std::string& line) {
     Diagnostics diagnostics;
     frame::Settings settings;

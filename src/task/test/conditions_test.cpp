@@ -14,7 +14,7 @@ namespace dihaptic::task::conditions_test {
 namespace {
 
 constexpr int kBlock = 1;
-constexpr int kThumb = 2;  // behind the bodies
+constexpr int kThumb = 2;  // fingers come after the bodies
 constexpr int kIndex = 3;
 
 /// A director whose task waits in its only state for an exit, called tick by tick: two fingers, and
@@ -54,7 +54,7 @@ struct Waiting {
         (*director)(last, handles, commands);
         return commands.task.outcome == 0;
     }
-    /// Ticks until the exit is taken; -1: it is not.
+    /// Number of ticks until the exit is taken; -1: it is not taken within `most`.
     int ticks(int most) {
         for (int i = 1; i <= most; ++i) {
             if (tick()) return i;
@@ -93,7 +93,7 @@ TEST(Conditions, AnExpressionHoldsAsLongAsItMust) {
     EXPECT_EQ(task.ticks(30), -1);
     task.last.contacts.clear();
     EXPECT_FALSE(task.tick());
-    task.handles[1].v_WH = {0.2, 0, 0};  // of this tick
+    task.handles[1].v_WH = {0.2, 0, 0};  // velocity in this tick
     EXPECT_EQ(task.ticks(100), 51);
 }
 
@@ -264,7 +264,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "Did you mean block?"},
         Mistake{kExit,
                 "{ when: outside, region: shell, what: block, finger: index, outcome: reached }",
-                "duplicates the key what"},
+                "duplicates the key 'what'"},
         Mistake{kExit,
                 "{ when: outside, region: shell, what: block, shown: yes, outcome: reached }",
                 "not to bodies"},

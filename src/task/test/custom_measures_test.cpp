@@ -65,7 +65,7 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
         std::vector<double> x;       // [mm]
         std::vector<double> speeds;  // during the reach [m/s]
         std::vector<double> later;   // x from 50 to 100 ms after the reach's start [mm]
-        double fast = -1;            // when the reach exceeds 0.1 m/s [s]
+        double fast = -1;            // time when the reach exceeds 0.1 m/s [s]
     };
     std::map<int, Expected> expected;  // by trial
     recording::RawLogReader log(result.folder + "/raw.log");
@@ -130,11 +130,12 @@ TEST(CustomMeasures, OfWhatIsShownFollowTheDisplayToTheLastTick) {
     double aside = 0;
     for (size_t i = 0; i < trials.rows(); ++i) {
         const double shown = trials.number(i, "shown_mm");
-        // the rule's hand is a tick further, which in a reach is half a millimetre
+        // the rule uses the hand one tick later, which in a reach is up to half a millimetre
+        // further
         EXPECT_NEAR(shown, trials.number(i, next_column("rule_mm")), 0.5);
         aside = std::max(aside, std::abs(shown - trials.number(i, "hand_mm")));
     }
-    EXPECT_GT(aside, 20);  // by the rotation, 30 degrees of 45 mm
+    EXPECT_GT(aside, 20);  // from the rotation: 30 degrees at 45 mm
 }
 
 TEST(CustomMeasures, AreKnownToRulesWhichLookBackOverTrials) {
@@ -187,7 +188,7 @@ TEST(CustomMeasures, AreKnownToRulesWhichLookBackOverTrials) {
         EXPECT_NEAR(after(i, "middle_mm_s"), middle, 1e-5);
         EXPECT_NEAR(after(i, "best_mm_s"), *std::max_element(tops.begin(), tops.end()), 1e-5);
         ahead += tops.back() > middle ? 1 : 0;
-        // a table has nine digits, and some of a script's reaches are alike
+        // tables have nine digits, and some of a script's reaches are alike
         ties += std::abs(tops.back() - middle) < 1e-5 ? 1 : 0;
         EXPECT_NEAR(after(i, "ahead"), ahead, ties);
     }
@@ -297,9 +298,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "there are two measures 'a'"},
         Mistake{kBlocks, "{ name: a, of: 1, take: max, during: [raech] }", "Did you mean reach?"},
         Mistake{kBlocks, "{ name: a, of: 'mean(trial_num, 3)', take: max }",
-                "'mean' looks back over trials. Use it in after_trial"}));
+                "'mean' looks back over trials. Set a variable to it in after_trial"}));
 
-/// With a rule, and a measure that it may name.
+/// A mistake in a measure that a rule may name, or in the rule.
 class MistakenRule : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(MistakenRule, IsRefused) {
@@ -315,7 +316,7 @@ TEST_P(MistakenRule, IsRefused) {
 
 INSTANTIATE_TEST_SUITE_P(
     CustomMeasures, MistakenRule,
-    ::testing::Values(Mistake{"median", "measure.x", "is known only after the session"},
+    ::testing::Values(Mistake{"median", "measure.x", "known only after the session"},
                       Mistake{"last }, { name: x_rad, of: 1, take: last", "1 mm * measure.x",
                               "'x_mm' and 'x_rad' are both measure.x in after_trial"},
                       Mistake{"last", "measure.y", "'measure.y' is not a quantity"},

@@ -1,5 +1,5 @@
-// Tests what is drawn for trials: the distributions against their closed forms, and that the seed
-// determines them.
+// Tests the draws of trials: their distributions against closed forms, and that the seed determines
+// them.
 #include "task/file/draws.h"
 #include "base/number.h"
 
@@ -28,8 +28,8 @@ std::vector<double> drawn_10000(const DrawSpec& draw, uint64_t seed) {
     return drawn(draw, blocks, 7, seed);
 }
 
-/// Probability of a distance as great as this sample's from the distribution, by Kolmogorov and
-/// Smirnov; the sample size enters as in Stephens (1970).
+/// Probability that a sample is at least as far from the distribution as this one, by the test of
+/// Kolmogorov and Smirnov; the sample size enters as in Stephens (1970).
 template <class Cdf>
 double p_of(std::vector<double> sample, const Cdf& cdf) {
     std::sort(sample.begin(), sample.end());
@@ -90,7 +90,7 @@ TEST(Draws, TenThousandForeperiodsAreFrozenInTheListAndRepeatedByTheSeed) {
     };
     EXPECT_NE(list(1), list(2));
     EXPECT_EQ(list(1), list(1));
-    std::vector<double> waits;  // as in a resumed session: from the list
+    std::vector<double> waits;  // from the list, as in a resumed session
     for (const Trial& trial : read_trial_list(plan.task, folder.file("trial-list.csv")))
         waits.push_back(trial.draws.at(0));
     ASSERT_EQ(waits.size(), kTrials);

@@ -1,4 +1,5 @@
-// Tests bodies that states drive: on minimum jerk paths, along expressions, until they let go.
+// Tests bodies that states drive: on minimum-jerk paths, along expressions, and until the states
+// release them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +31,7 @@ std::string state(const std::string& name, const std::string& next, const std::s
            " }], drive: [" + drive + "], simulated_hand: [{ duration_s: 0.1 }] }\n";
 }
 
-/// Frames of the first trial of an experiment with these states; what is recorded replays.
+/// Frames of the first trial of an experiment with these states; the recording must replay.
 std::vector<frame::Frame> frames_of(session::Files& files, const std::string& states) {
     files.experiment = "scene: scene.yaml\nhand: { centre_mm: [0, 0, 220] }\ntask:\n  states:\n" +
                        states + "  blocks: [{ name: all, repeats: 2 }]\n";
@@ -103,10 +104,10 @@ TEST(Drive, FollowsATable) {
         return frames[static_cast<size_t>(std::lround(t / kTick))].bodies[kPlatform].X_WB.p;
     };
     EXPECT_LT((at(0.04) - Vec3(0.2, 0, 0.1)).norm(), 1e-12);
-    // at up to 0.45 m/s, a state that begins a tick later or earlier shifts the platform by a
-    // tick's way
+    // at up to 0.45 m/s, a state that begins a tick later or earlier shifts the platform by the
+    // distance of one tick
     EXPECT_NEAR(at(0.15).z(), 0.13, 1e-3);
-    EXPECT_NEAR(at(0.2).z(), 0.1 + 0.03 - 0.01, 1e-3);  // halfway, and slopes of 50 and 0 mm/s
+    EXPECT_NEAR(at(0.2).z(), 0.1 + 0.03 - 0.01, 1e-3);  // halfway, with slopes of 50 and 0 mm/s
     EXPECT_LT((at(0.28) - Vec3(0.2, 0, 0.11)).norm(), 1e-9);
 }
 
@@ -189,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "      drive: [{ body: block, path: { times_s: [0, 1], x_mm: [0, 1, 2] } }]\n",
                 "has 3 positions for 2 times"},
         Mistake{kMarker, "      drive: [{ body: block, path: { times_s: [0, 1] } }]\n",
-                "and so are y and z"},
+                "and so are 'y' and 'z'"},
         Mistake{kMarker, "      drive: [{ body: block, path: { file: no.csv } }]\n",
                 "is empty, or cannot be read"},
         Mistake{kMarker,

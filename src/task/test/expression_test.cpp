@@ -24,7 +24,7 @@ struct Grasp {
         last.time = std::chrono::milliseconds(1500);
         last.grip_force = 2.5;
         last.fingers.resize(2);
-        last.fingers[0].p_WH = {-1, -1, -1};  // that of the last tick
+        last.fingers[0].p_WH = {-1, -1, -1};  // position of the last tick
         last.fingers[0].p_WP = {-0.02, 0, 0.05};
         last.fingers[1].normal_force = 2;
         last.fingers[1].buttons = 5;
@@ -345,8 +345,8 @@ class Writer {
     }
 
   private:
-    /// The text in brackets or, once in `often` times, without them, unless that would change which
-    /// part is a number and which a condition.
+    /// The text in brackets or, in one of `often` cases, without them, unless that would change
+    /// which part is a number and which a condition.
     std::string bracketed(const std::string& text, size_t often) {
         const bool binds =
             text.find(" if ") == std::string::npos && text.find(" or ") == std::string::npos &&
@@ -366,7 +366,7 @@ class Writer {
     Random& random_;
 };
 
-/// Whether two values are as equal as the test requires.
+/// Whether two values agree as closely as the test requires.
 bool agree(double a, double b) {
     if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
     return a == b || std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b));
@@ -473,7 +473,8 @@ TEST(Expression, AllocatesNothingInTheTick) {
     EXPECT_EQ(sum, 1000);
 }
 
-/// Each of many fingers differs from every other one, even of the same remainder.
+/// Each of many fingers differs from every other one, even if their indices differ by a multiple
+/// of 32.
 TEST(Expression, AnyNumberOfFingersAreToldApart) {
     for (const size_t count : {2, 31, 32, 33, 64, 65, 200}) {
         SCOPED_TRACE(count);

@@ -11,7 +11,7 @@
 namespace dihaptic::task::feedback_test {
 namespace {
 
-/// A message, and from when to when it was shown [s].
+/// A message, with the times at which it appeared and disappeared [s].
 struct Said {
     std::string message;
     double from = 0;

@@ -1,4 +1,4 @@
-// Tests forms: several questions in one state, whose answers count once they are confirmed.
+// Tests forms: several questions in one state, whose answers take effect once they are confirmed.
 #include "task/file/form.h"
 
 #include <gtest/gtest.h>
@@ -54,13 +54,13 @@ struct Forms : session::Files {
     std::string form = kForm;
 };
 
-/// What the director ordered at the end of the trial with the form; keys are pressed in its state,
-/// one every other tick.
+/// What the director ordered at the end of the trial with the form; keys are pressed in the form's
+/// state, one every other tick.
 frame::TaskFrame filled(const session::Plan& plan, const std::string& keys,
                         std::vector<std::string>* lines = nullptr) {
     test::RestingHand hand(plan);
     size_t at = 0;
-    int ticks = 0;  // in the form
+    int ticks = 0;  // number of ticks in the form
     for (int i = 0; i < 20000; ++i) {
         const frame::Commands& commands = hand.tick();
         if (commands.phase == 2 && commands.task.outcome >= 0) return commands.task;
@@ -131,7 +131,7 @@ TEST(Form, EnterAfterANumberThatIsCompleteLeavesNothingOut) {
     EXPECT_EQ(answers(end), (std::vector<double>{20, 1, 7}));
 }
 
-/// A window that draws slowly passes on all keys typed meanwhile at once.
+/// A window that draws slowly passes all keys typed meanwhile on at once.
 TEST(Form, LosesNoKeyOfThoseThatComeAtOnce) {
     Forms files;
     const session::Plan plan = files.plan();
@@ -182,7 +182,7 @@ TEST(Form, IsClickedInAnyOrderAndConfirmedByTheButton) {
     const std::vector<Click> clicks{Click::at(3, 0), Click::at(1, 1), Click::at(0, 0.5),
                                     Click::at(0, 0.25), Click::at(3, 0)};
     size_t at = 0;
-    int ticks = 0;  // in the form
+    int ticks = 0;  // number of ticks in the form
     for (int i = 0; i < 20000; ++i) {
         const frame::Commands& commands = hand.tick();
         if (commands.phase == 2 && commands.task.outcome >= 0) {
@@ -244,7 +244,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"name: comfort", "name: effort", "is the name of another item too"},
         Mistake{"name: comfort", "name: time", "is already the quantity time"},
         Mistake{"of: effort +", "of: effrot +", "Did you mean effort?"},
-        Mistake{"scale: magnitude,", "scale: vas, by: cursor,", "cannot be cursor in a form"},
+        Mistake{"scale: magnitude,", "scale: vas, by: cursor,", "cannot be 'cursor' in a form"},
         Mistake{"from: -1", "from: 0.5", "is not a whole number"},
         Mistake{"items:", "itmes:", "Did you mean items?"},
         Mistake{"file: form.yaml", "file: from.yaml", "from.yaml"},
@@ -260,7 +260,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"after_s: 5, outcome: too late }\n",
                 "after_s: 5, outcome: too late }\n    - name: more\n      ask: { name: effort, "
                 "scale: vas }\n      exits: [{ when: answered, outcome: more }]\n",
-                "is asked on another scale in another state"},
+                "is asked on a different scale in another state"},
         Mistake{"begins: ask", "begins: aks", "Did you mean ask?"}));
 
 }  // namespace

@@ -56,7 +56,7 @@ struct Jointed : session::Files {
                      conditions + "  blocks: [{ name: all, order: sequential" +
                      (perturbation.empty() ? "" : ", kind: perturbed, perturb: changed") + " }]\n";
     }
-    /// Frames of the trials' last ticks in the state, after a session that replays.
+    /// Frames of the trials' last ticks in the state, after a session that must replay.
     std::vector<frame::Frame> last_frames() {
         const session::RunResult result = run(session::make_plan(request()));
         EXPECT_FALSE(result.interrupted) << result.fault;
@@ -104,7 +104,7 @@ TEST(JointsInTasks, BeginWhereATrialSaysWithAllThatHangsOnThem) {
     double passed = 0;
     while (const frame::Frame* frame = log.next()) {
         if (frame->phase == 0) continue;
-        if (first) {  // a step of gravity later
+        if (first) {  // after one step of gravity
             EXPECT_LT((frame->bodies[2].X_WB.p - Vec3(0.2, 0, 0.5) - kLength * down).norm(), 1e-5);
             EXPECT_LT((frame->bodies[3].X_WB.p - Vec3(0.2, 0, 0.5) - 2 * kLength * down).norm(),
                       1e-5);
@@ -115,7 +115,7 @@ TEST(JointsInTasks, BeginWhereATrialSaysWithAllThatHangsOnThem) {
         }
         EXPECT_NEAR(frame->joints[2].displacement, 0.03, 1e-6);
         EXPECT_TRUE(std::isnan(frame->joints[3].angle));
-        // what hangs below pulls at the hinge in the world's frame: about its weight
+        // the parts below the hinge pull at it with about their weight, in the world's frame
         EXPECT_GT(frame->joints[0].f_B_W.z(), 0.5 * 0.1 * kGravity);
         last = frame->joints[0].angle;
         passed += 1e-3;
@@ -215,7 +215,7 @@ TEST(JointsInTasks, BeginWithTheRateThatATrialSays) {
     EXPECT_NEAR(frame->joints[kShoulder].angular_velocity, rate, 0.03);
     EXPECT_NEAR(frame->joints[1].angular_velocity, 0, 0.05);  // the elbow stays straight
     EXPECT_NEAR(frame->bodies[3].v_WB.norm(), 2 * kLength * rate, 0.01);
-    EXPECT_NEAR(frame->joints[3].velocity, -0.05, 0.02);  // with a step of its spring and damper
+    EXPECT_NEAR(frame->joints[3].velocity, -0.05, 0.02);  // after a step of its spring and damper
     EXPECT_NEAR(frame->bodies[1].v_WB.z(), 0.5 - kGravity * 1e-3, 1e-6);
 }
 

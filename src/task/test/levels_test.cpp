@@ -102,7 +102,7 @@ TEST(Levels, OrderOfIntervalsIsDrawnFromTheSeedAndFrozen) {
 TEST(Levels, ThatAdaptSettleAtTheThreshold) {
     struct Case {
         const char* procedure;
-        double wanted;  // level at which the observer is right as often as it settles
+        double wanted;  // level with the share of right answers at which the procedure settles
     };
     // Phi((x - 0.35) / 0.1) = 2 (p - 0.5), with p: 80.35 %, 82 %, and about 83 %
     for (const Case& c : {Case{kStaircase, 0.377}, Case{kQuest, 0.386}, Case{kQuestPlus, 0.39}}) {
@@ -310,9 +310,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "the value of more where no procedure chooses it"},
         Mistake{"standard: 0\n", "standard: none\n", "standard"},
         Mistake{"level: more\n      perturb: felt\n", "perturb: felt\n",
-                "is only for a procedure with level"},
+                "is only for a procedure with 'level'"},
         Mistake{"level: more\n      perturb: felt\n      standard: 0\n", "sigmoid: normal\n",
-                "perturb: is missing, and so is level"},
+                "perturb: is missing, and so is 'level'"},
         Mistake{"level: more", "level: block", "is already the quantity block"},
         Mistake{"level: more", "level: 3 more", "cannot be used in a formula"},
         Mistake{"1 + more", "1 + mor", "Did you mean more?"},

@@ -1,5 +1,5 @@
 // Tests the error message for every mistake that perturbations, their profiles and their loads can
-// have.
+// contain.
 #include <gtest/gtest.h>
 
 #include "session/test/reaches.h"
@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "delay_ms: is not known here"},
         Mistake{kField, "loads: [{ kind: constant, on: index, torque_Nm: [0, 0, 0.1] }]",
                 "renders no torque"},
-        Mistake{kField, "loads: [{ kind: general, on: index }]", "and so are B and force"},
+        Mistake{kField, "loads: [{ kind: general, on: index }]", "and so are 'B' and 'force'"},
         Mistake{kField, "loads: [{ kind: general, on: index, B_Ns_m: [0, -13, 0] }]",
                 "three rows of three numbers"},
         Mistake{kField,
@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kField,
                 "loads: [{ kind: spring, on: index, about: start, axis: [1, 0, 0], "
                 "normal: [0, 0, 1], stiffness_N_m: 9 }]",
-                "Keep one or the other"},
+                "Keep only one of them"},
         Mistake{kField,
                 "loads: [{ kind: spring, on: index, about: start, stiffness_N_m: 9, one_sided: yes "
                 "}]",
@@ -104,9 +104,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"    - name: clamp\n", "    - name: clamp\n      during: [rech]\n",
                 "Did you mean reach?"},
         Mistake{"    - name: clamp\n", "    - name: clamp\n      during: home\n",
-                "has perturbed: no"},
+                "has 'perturbed: no'"},
         Mistake{"    - name: clamp\n", "    - name: clamp\n      profile: { fall_ms: 20 }\n",
-                "has no effect without plateau"},
+                "has no effect without a plateau"},
         Mistake{"    - name: clamp\n", "    - name: clamp\n      profile: { rise: 20 }\n",
                 "needs its unit"},
         Mistake{"    - name: clamp\n", "    - name: clamp\n      profile: { shape: round }\n",

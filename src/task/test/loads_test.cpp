@@ -116,7 +116,7 @@ TEST(Load, AOneSidedPlaneIsAWallThatPushesAndNeverHolds) {
     EXPECT_EQ(force_at(0.001, -0.1), Vec3::Zero());
     EXPECT_LT((force_at(-0.004, 0) - Vec3(0, 0, 2)).norm(), 1e-12);
     EXPECT_LT((force_at(-0.004, -0.1) - Vec3(0, 0, 3)).norm(), 1e-12);
-    EXPECT_EQ(force_at(-0.004, 0.3), Vec3::Zero());  // its damper would pull
+    EXPECT_EQ(force_at(-0.004, 0.3), Vec3::Zero());  // the load's damper would pull
 }
 
 TEST(Load, FadesToZeroBeyondItsZone) {
@@ -184,7 +184,7 @@ TEST(Profile, RisesStaysAndFallsAndItsIntegralIsThatOfATrapezium) {
     EXPECT_EQ(Profile{}.share(0), 1);
     EXPECT_EQ(Profile{}.share(1e6), 1);
     Profile step;
-    step.delay = 0.3;  // 0.1 + 0.2 is more than 0.3 by a rounding
+    step.delay = 0.3;  // 0.1 + 0.2 is more than 0.3 by a rounding error
     step.plateau = 0.1;
     EXPECT_EQ(step.share(0.1 + 0.2 - kTick), 0);
     EXPECT_EQ(step.share(0.1 + 0.2), 1);
@@ -313,7 +313,7 @@ TEST(Load, ATorqueTurnsABodyByItsInertia) {
     for (const frame::Frame& frame : files.run()) {
         t += kTick;
         EXPECT_NEAR(frame.bodies[1].w_WB.z(), 1e-3 / inertia * t, 1e-6);
-        EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), 0.5, 1e-9);  // the force bears its weight
+        EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), 0.5, 1e-9);  // the force bears the block's weight
     }
     EXPECT_GT(t, 0.35);
 }
@@ -334,7 +334,7 @@ TEST(Load, ATorqueOnAHandleIsAddedToTheCouplings) {
         const frame::TurnFrame& turn = frames[i].turns.at(0);
         EXPECT_LT((turn.t_sent_W - turn.t_asked_W - Vec3(0, 0, 0.02)).norm(), 1e-12) << i;
     }
-    // the hand holds the handle by 1 N*m/rad
+    // the hand holds the handle with 1 N*m/rad
     EXPECT_NEAR(rotation_vector(frames.back().turns[0].R_WH).z(), 0.02, 2e-3);
 }
 

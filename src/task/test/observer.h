@@ -1,5 +1,5 @@
 // An observer with a known psychometric function, who compares the friction of a block in two
-// intervals of a trial and presses 1 or 2; and an experiment that asks for it.
+// intervals of a trial and presses 1 or 2; and an experiment that asks for this comparison.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,8 @@
 
 namespace dihaptic::task::test {
 
-/// PROCEDURE stands for how the levels are chosen: how much more slippery the comparison is.
+/// PROCEDURE stands for the procedure that chooses the levels: how much more slippery the
+/// comparison is.
 inline const char* const kIntervals = R"(title: Two intervals
 scene: scene.yaml
 hand: { centre_mm: [0, 0, 120] }

@@ -28,7 +28,7 @@ struct Asked {
         last.fingers[0].p_WP = handles[0].p_WH;
         commands.task.reserve({last.bodies.size()});
     }
-    /// Runs until a time [s]; in its first tick a key is pressed, unless it is 0.
+    /// Runs until a time [s]; in the first tick `key` is pressed, unless it is 0.
     const frame::Commands& run(double until, char key = 0) {
         for (; tick < until * 1e3; ++tick, key = 0) {
             last.sequence = tick;

@@ -1,4 +1,4 @@
-// Tests bodies that states put somewhere, hold, let go, remove and exchange.
+// Tests bodies that states place, hold, release, remove and exchange.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -22,7 +22,7 @@ std::string state(const std::string& name, const std::string& next, const std::s
 }
 
 /// Frames of the first trial of an experiment with these states, except the session's first, in
-/// which no state has put anything yet.
+/// which no state has placed anything yet.
 std::vector<frame::Frame> frames_of(session::Files& files, const std::string& states) {
     files.experiment = "scene: scene.yaml\nhand: { centre_mm: [0, 0, 220] }\ntask:\n  states:\n" +
                        states + "  blocks: [{ name: all, repeats: 2 }]\n";

@@ -1,5 +1,5 @@
-// Tests procedures in experiment files: shares follow from the answers of observers who answer by a
-// psychometric function.
+// Tests procedures in experiment files: shares follow from the answers of observers whose answers
+// follow a psychometric function.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -105,7 +105,7 @@ TEST(ProceduresInTasks, FindTheThresholdInMixedTrialsOfNoMoreThanTheyNeed) {
     std::map<std::string, std::vector<double>> shares;
     for (const Answered& a : answers) shares[a.procedure].push_back(a.share);
     EXPECT_EQ(shares["right"].size(), 60u);
-    EXPECT_LT(shares["left"].size(), 200u);  // 40 reversals take fewer
+    EXPECT_LT(shares["left"].size(), 200u);  // 40 reversals take fewer trials
     EXPECT_EQ(shares[""], std::vector<double>(10, 0.0));
     for (const char* name : {"left", "right"}) {
         const auto& levels = shares[name];
@@ -116,7 +116,7 @@ TEST(ProceduresInTasks, FindTheThresholdInMixedTrialsOfNoMoreThanTheyNeed) {
         EXPECT_LE(*std::max_element(levels.begin(), levels.end()), 1);
         EXPECT_GE(*std::min_element(levels.begin(), levels.end()), 0);
     }
-    // mixed: the first twenty have both
+    // mixed: both occur in the first twenty trials
     int lefts = 0;
     for (size_t i = 0; i < 20; ++i) lefts += answers[i].procedure == "left";
     EXPECT_GT(lefts, 0);
@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"yes: turned\n      no: straight\n      guess: 0\n      trials: 60",
                 "yes: turnd\n      no: straight\n      guess: 0\n      trials: 60",
                 "Did you mean turned?"},
-        Mistake{"no: straight", "no: turned", "same outcome as for yes"},
+        Mistake{"no: straight", "no: turned", "same outcome as for 'yes'"},
         Mistake{"no: straight", "no: late", "'late' are repeated"},
         Mistake{"perturb: right", "perturb: wrong", "not a perturbation"},
         Mistake{"steps_up: [0.2, 0.1, 0.05, 0.02]", "steps_up: []", "list of numbers"},

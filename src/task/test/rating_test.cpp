@@ -73,7 +73,7 @@ TEST(Rating, IsTyped) {
     EXPECT_EQ(typed("15", numbers(12, 90)), 15);
     EXPECT_TRUE(std::isnan(typed("abc\r", numbers(0, 100))));
     EXPECT_EQ(typed("12345678901\r", numbers(0, 1e8)), 12345678);
-    EXPECT_EQ(typed("72", numbers(1, 9)), 7);  // later keys do not count
+    EXPECT_EQ(typed("72", numbers(1, 9)), 7);  // later keys are ignored
     Rating rating;
     rating.press('4', numbers(0, 100));
     EXPECT_EQ(rating.shown(), 4);
@@ -262,7 +262,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"labels: [light", "by: cursor, between: [low, high], labels: [light",
                 "is available at all times"},
         Mistake{"labels: [light", "between: [low, high], labels: [light",
-                "cannot be used with by: key"},
+                "cannot be used with 'by: key'"},
         Mistake{"scale: numbers, from: 1, to: 9, labels: [light, heavy]",
                 "scale: magnitude, by: cursor, between: [low, high]", "no upper limit"},
         Mistake{"      ask: { name: heaviness, scale: numbers, from: 1, to: 9, labels: [light, "

@@ -1,4 +1,4 @@
-// Tests that trial-list.csv returns unchanged how a trial's reach is measured.
+// Tests that the measurement of a trial's reach is read back unchanged from trial-list.csv.
 #include "task/plan/reach_plan.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Tests that every key of a file is described in visit(), and that docs/reference.md says the same.
+// Tests that every key of a file is described in visit(), and that docs/reference.md agrees with
+// visit().
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ struct Key {
     std::string bounds;
     std::string what;
     std::string preset;                ///< the default
-    std::vector<std::string> kinds{};  ///< of the struct that have it
+    std::vector<std::string> kinds{};  ///< kinds of the struct that have the key
 
     bool same(const Key& other) const {
         return name == other.name && type == other.type && bounds == other.bounds &&
@@ -65,7 +66,7 @@ std::string link_to(const std::string& heading) {
     return fmt::format("[{}](#{})", heading.substr(heading.rfind('.') + 1), anchor);
 }
 
-/// A struct once for each of its kinds, with the kind in words.
+/// Copies of a struct, one for each of its kinds, with the kind in words.
 template <class Struct>
 std::vector<std::pair<std::string, Struct>> each_kind_of(const Struct& value) {
     std::vector<std::pair<std::string, Struct>> out;
@@ -78,30 +79,31 @@ std::vector<std::pair<std::string, Struct>> each_kind_of(const Struct& value) {
     return out;
 }
 
-/// The page: a section for each struct, which those that have it link to.
+/// The page: a section for each struct, with links from the sections of structs that contain it.
 class Page {
   public:
     std::string text;
 
-    /// Heading of the struct's section, if not that of the first key that has it.
+    /// Sets the heading of the struct's section, in place of the first key that refers to it.
     template <class Struct>
     void name(const std::string& heading) {
         headings_[typeid(Struct)] = heading;
     }
-    /// A section that is not within another.
+    /// Adds a section that is not within another one.
     template <class Struct>
     void part(const std::string& heading, const std::string& about) {
         text += fmt::format("## {}\n\n{}\n\n", heading, about);
         write(Struct{}, heading);
     }
-    /// A struct that has a part.
+    /// Registers a struct that has a part.
     template <class Struct>
     void has_part(const std::string& heading) {
         name<Struct>(heading);
         written_.insert(typeid(Struct));
     }
 
-    /// A link to the struct's section, which is written after this one if there is none yet.
+    /// A link to the struct's section, which is written after the current one if it does not exist
+    /// yet.
     template <class Struct>
     std::string section(const Struct& value, const std::string& by_key) {
         const std::string heading = headings_.try_emplace(typeid(Struct), by_key).first->second;
@@ -204,7 +206,7 @@ class Lister {
     void operator()(std::string_view name, std::vector<Struct>&, Field field = {}) {
         add(name, "list of " + page_.section(Struct{}, inner(name)), field, Node{});
     }
-    /// A value that may be either only a list or keys is described as keys.
+    /// A value that may be either a mere list or a mapping is described as a mapping.
     static bool is_list(std::string_view) { return false; }
 
   private:
@@ -301,7 +303,7 @@ std::string tables() {
     return page.text;
 }
 
-/// The text before the tables is written by hand.
+/// The text before the tables is not generated.
 TEST(Reference, HasEachKeyOfFiles) {
     const std::string page = testing::read_file(kFile);
     const std::string made = page.substr(0, page.find("## Experiment")) + tables();

@@ -75,9 +75,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kRotation, "visual: { moves: [proxies], delay_ms: 9000 }", "delay_ms"},
         Mistake{kRotation, "visual: { moves: [proxies], delay: 100 }", "needs its unit"},
         Mistake{kRotation, "visual: { moves: [target], delay_ms: 100 }",
-                "needs proxies or the object among moves"},
+                "needs 'proxies' or 'object' among 'moves'"},
         Mistake{kRotation, "visual: { moves: [target], noise_mm: [1, 1, 1] }",
-                "needs proxies or the object among moves"},
+                "needs 'proxies' or 'object' among 'moves'"},
         Mistake{kRotation, "visual: { moves: [proxies], noise_mm: 3 }", "must be three numbers"},
         Mistake{kRotation, "visual: { moves: [proxies], delay_ms: 100, scale: [2, 1, 1] }",
                 "about"}));

@@ -30,7 +30,7 @@ struct Told {
     std::string folder;
 };
 
-/// Runs the files' session, which must replay to the bit.
+/// Runs the files' session, which must replay exactly.
 Told tell(session::Files& files) {
     const session::RunResult result = files.run(session::make_plan(files.request()));
     EXPECT_EQ(result.fault, "");
@@ -94,7 +94,7 @@ TEST(Seen, AListOfTargetsIsWrittenAsItWas) {
     files.replace("show: [target]", "show: { targets: [target], cursor: held }");
     const std::string text = written();
     EXPECT_NE(text.find("targets:"), std::string::npos);
-    // what is written reads back
+    // the written text can be read back
     Task again;
     Diagnostics diagnostics;
     read_fields(again, parse_yaml(text, "task.yaml"), diagnostics);
@@ -120,7 +120,7 @@ TEST(Seen, AHeldCursorStaysWhereItWasWhenTheStateBegan) {
         if (frame.phase != kEnd) continue;
         if (told.frames[i - 1].phase != kEnd) {
             ++ends;
-            held = frame::mapped_proxy(told.frames[i - 1], 0);  // as perturbed as it was there
+            held = frame::mapped_proxy(told.frames[i - 1], 0);  // with the perturbation then
         }
         EXPECT_TRUE(finger_is_displayed(frame));
         EXPECT_EQ(frame::displayed_proxy(frame, 0).p, held.p);
@@ -289,7 +289,7 @@ TEST(Seen, TextsNameVariablesDrawsAndWhatIsMeasured) {
             const Trial& trial = plan.task->trials[static_cast<size_t>(frame->trial - 1)];
             EXPECT_EQ(texts.at(0), fmt::format("Score {}, wait {:.3f}", 10 * frame->trial - 5,
                                                trial.draws.at(0) / 1000));
-            EXPECT_NEAR(finite_number(texts.at(1)).value(), z, 5e-5 + 1e-3);  // by a tick
+            EXPECT_NEAR(finite_number(texts.at(1)).value(), z, 5e-5 + 1e-3);  // within a tick
         }
         z = frame->fingers.at(0).p_WH.z();
     }

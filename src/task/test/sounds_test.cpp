@@ -49,7 +49,7 @@ TEST(Sounds, BeginInTheTickInWhichTheirStateBeginsOrTheirExitIsTaken) {
         if (frame->sequence == 0) wanted.insert({kWind, 1});
         if (frame->phase == 1 && phase != 1) wanted.insert({kHum, 1});
         if (frame->phase == 2 && phase != 2) wanted.insert({kGo, 1});
-        // the trial's last tick is still of its last state
+        // the trial's last tick still belongs to its last state
         if (frame->task.outcome >= 0) wanted.insert({{kGood, 1}, {kHum, 0}});
         std::set<std::pair<int, int>> found;
         for (const frame::SoundFrame& sound : frame->task.sounds) {

@@ -1,4 +1,4 @@
-// Tests the error message for every mistake that a task's file can have.
+// Tests the error message for every mistake that a task's file can contain.
 #include <gtest/gtest.h>
 
 #include "session/test/reaches.h"
@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"task:\n",
                 "task:\n  hands: [{ name: A, fingers: [index] }, { name: B, fingers: [index] }]\n"
                 "  participants: [A, B]\n",
-                "must have all fingers of the scene"},
+                "must include all fingers of the scene"},
         Mistake{"task:\n", "task:\n  corrections: { after: reach, axis: [0, 0, 0] }\n",
                 "has no direction"},
         Mistake{"task:\n", "task:\n  corrections: { after: reahc }\n", "Did you mean reach?"},
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kRotation, "body: { body: blok, mass_scale: [2, 2, 1] }", "Did you mean block?"},
         Mistake{kRotation, "body: { body: table, mass_scale: [2, 2, 1] }", "'table' cannot move"},
         Mistake{kRotation, "body: { body: table, friction_scale: 2, weight_scale: 2 }",
-                "or change only its friction and surface"},
+                "or change only this body's friction and surface"},
         Mistake{kRotation, "body: { body: block, mass_scale: 2 }", "must be three numbers"},
         Mistake{kRotation, "body: { body: block, weight_scale: heavy }", "must be a number"},
         Mistake{kRotation, "visual:", "visual"},
@@ -166,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"redo: next", "measures: [peak_speed]\n  movement: { of: inde }",
                 "Did you mean index?"},
         Mistake{"redo: next", "measures: [peak_speed]\n  movement: { of: table }",
-                "'table' is neither a finger, a movable body nor hand"},
+                "'table' is neither a finger, a movable body nor 'hand'"},
         Mistake{"redo: next", "measures: [peak_speed]\n  movement: { from: strat }",
                 "Did you mean start?"},
         Mistake{"redo: next", "measures: [peak_speed]\n  movement: { to: start }",

@@ -140,7 +140,7 @@ TEST(Task, ABodyFallsThroughAViscousFieldTowardItsTerminalVelocity) {
 }
 
 TEST(Task, ABodyFallsThroughACurlFieldOnACycloid) {
-    // m a = m g + b e x v turns v - d at the rate b / m, where the drift d has m g + b e x d = 0
+    // m a = m g + b e x v turns v - d at the rate b / m, where the drift d solves m g + b e x d = 0
     const double rate = 2 / kMass;
     const double drift = kGravity / rate;
     double t = 0;
@@ -209,7 +209,7 @@ task:
     }
     EXPECT_GT(farthest, 0.03);
     EXPECT_EQ(placed, 3);  // before each trial
-    EXPECT_LT(force, 8);   // nothing is pushed out of anything
+    EXPECT_LT(force, 8);   // no body is pushed out of another
     EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
 }
 
@@ -241,7 +241,7 @@ TEST(Task, ConditionsPutObjectsInPlacesOfTheirOwn) {
 
 TEST(Task, ASimulatedHandThatStaysInTheWayDoesNotFillTheDisk) {
     session::Files files;
-    // the block of the second trial is put where the hand is at the end of the first
+    // the block of the second trial is placed where the hand is at the end of the first
     files.replace("    - name: far\n",
                   "    - name: far\n      places: [{ body: block, position_mm: [50, 0, 120] }]\n");
     files.replace("    - { name: before, kind: baseline, repeats: 1 }\n",

@@ -1,5 +1,5 @@
-// Tests that what decides between trials is asked once for each attempt, and that late answers do
-// not count.
+// Tests that the program that decides about the next attempt is asked once for each attempt, and
+// that late answers are ignored.
 #include "task/run/trial_control.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tests the order of trials, and which are done again.
+// Tests the order of trials, and which of them are repeated.
 #include "task/plan/trials.h"
 #include "base/number.h"
 
@@ -139,10 +139,10 @@ TEST(TrialQueue, GoesThroughWhatWasDoneThoughSomeOfItIsLost) {
         queue.finish(redo);
     };
     made(0, 1, false);
-    made(2, 1, false);  // how the second trial ended is lost
+    made(2, 1, false);  // the end of the second trial is lost
     EXPECT_EQ(queue.trial(), 1);
-    made(3, 2, true);  // its first attempt was interrupted by a pause
-    made(3, 3, true);  // and that was the last
+    made(3, 2, true);  // the first attempt at it was interrupted by a pause
+    made(3, 3, true);  // that was the last attempt
     EXPECT_EQ(queue.trial(), 1);
     made(1, 1, false);
     EXPECT_TRUE(queue.empty());

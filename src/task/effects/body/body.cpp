@@ -13,7 +13,7 @@ BodyEffect::BodyEffect(const BodySpec& spec, const Names&, const scene::Scene& s
         spec.mass_scale == kNoFactors && spec.weight_scale == 1 && spec.density_scale == 1;
     if (!only_surface && !body.moves_at_all()) {
         diagnostics.error(spec.place, "body", "'" + spec.body + "' cannot move",
-                          "Name a movable body, or change only its friction and surface.");
+                          "Name a movable body, or change only this body's friction and surface.");
     }
     const auto needs = [&](const Formula& factor, const char* key, bool there, const char* what) {
         if (factor == 1 || there) return;

@@ -21,12 +21,12 @@ struct BodySpec {
     using Effect = BodyEffect;
 
     Ref<scene::Body> body;
-    FormulaVec3 mass_scale{1, 1, 1};  ///< on inertia along the world axes; same weight
-    Formula weight_scale = 1;         ///< same inertia
-    Formula density_scale = 1;        ///< on both and on the moments of inertia
+    FormulaVec3 mass_scale{1, 1, 1};  ///< on inertia along the world axes; weight unchanged
+    Formula weight_scale = 1;         ///< on weight; inertia unchanged
+    Formula density_scale = 1;        ///< on weight, inertia and moments of inertia
     Formula friction_scale = 1;
-    Formula stiffness_scale = 1;    ///< of its surface, with its damping
-    Formula restitution_scale = 1;  ///< of its surface
+    Formula stiffness_scale = 1;    ///< of the body's surface; also scales its damping
+    Formula restitution_scale = 1;  ///< of the body's surface
     Formula texture_wavelength_scale = 1;
     Formula texture_height_scale = 1;
     Formula texture_friction_scale = 1;
@@ -37,32 +37,33 @@ struct BodySpec {
         v("body", body, Field::text().required().says("Body whose properties are changed."));
         v("mass_scale", mass_scale,
           Field::number().within(0.05, 20).says(
-              "Factors on its inertia along the world axes; its weight stays the same."));
+              "Factors on the body's inertia along the world axes; its weight stays the same."));
         v("weight_scale", weight_scale,
           Field::number().within(-20, 20).says(
-              "Factor on its weight; its inertia stays the same."));
+              "Factor on the body's weight; its inertia stays the same."));
         v("density_scale", density_scale,
           Field::number().within(0.05, 20).says(
-              "Factor on its weight, inertia and moments of inertia together."));
+              "Factor on the body's weight, inertia and moments of inertia together."));
         v("friction_scale", friction_scale,
-          Field::number().within(0, 20).says("Factor on its coefficients of friction."));
+          Field::number().within(0, 20).says("Factor on the body's coefficients of friction."));
         v("stiffness_scale", stiffness_scale,
           Field::number().within(0.01, 100).says(
-              "Factor on the stiffness and damping of its surface."));
+              "Factor on the stiffness and damping of the body's surface."));
         v("restitution_scale", restitution_scale,
           Field::number().within(0, 100).says(
-              "Factor on the restitution of its surface, which is limited to 1."));
+              "Factor on the restitution of the body's surface, which is limited to 1."));
         v("texture_wavelength_scale", texture_wavelength_scale,
-          Field::number().within(0.01, 100).says("Factor on the wavelength of its texture."));
+          Field::number().within(0.01, 100).says(
+              "Factor on the wavelength of the body's texture."));
         v("texture_height_scale", texture_height_scale,
-          Field::number().within(0, 100).says("Factor on the height of its texture."));
+          Field::number().within(0, 100).says("Factor on the height of the body's texture."));
         v("texture_friction_scale", texture_friction_scale,
-          Field::number().within(0, 100).says(
-              "Factor on the variation of friction along its texture, which is limited to 1."));
+          Field::number().within(0, 100).says("Factor on the variation of friction along the "
+                                              "body's texture, which is limited to 1."));
     }
 };
 
-/// Adds the changes and their size, as worded in a report.
+/// Adds descriptions of the changes and their sizes, for a report.
 void say(const BodySpec& spec, std::vector<std::string>& out);
 
 class BodyEffect {

@@ -17,8 +17,8 @@ struct JointSpec {
     using Effect = JointEffect;
 
     Ref<scene::Joint> joint;
-    Formula stiffness_scale = 1;  ///< of its spring
-    Formula damping_scale = 1;    ///< of its damper
+    Formula stiffness_scale = 1;  ///< of the joint's spring
+    Formula damping_scale = 1;    ///< of the joint's damper
     Formula friction_scale = 1;
     Place place;
 
@@ -27,13 +27,14 @@ struct JointSpec {
         const Field factor = Field::number().within(0, 100);
         v("joint", joint, Field::text().required().says("Joint whose properties are changed."));
         v("stiffness_scale", stiffness_scale,
-          factor.says("Factor on the stiffness of its spring."));
-        v("damping_scale", damping_scale, factor.says("Factor on the damping of its damper."));
-        v("friction_scale", friction_scale, factor.says("Factor on its dry friction."));
+          factor.says("Factor on the stiffness of the joint's spring."));
+        v("damping_scale", damping_scale,
+          factor.says("Factor on the damping of the joint's damper."));
+        v("friction_scale", friction_scale, factor.says("Factor on the joint's dry friction."));
     }
 };
 
-/// Adds the changes and their size, as worded in a report.
+/// Adds descriptions of the changes and their sizes, for a report.
 void say(const JointSpec& spec, std::vector<std::string>& out);
 
 class JointEffect {

@@ -73,10 +73,10 @@ void Load::check_link(Diagnostics& diagnostics) const {
         diagnostics.error(
             spec_.place, "between",
             fmt::format("has {} items, but a link has two ends", spec_.between.size()),
-            "Name two, e.g. between: [A index, B index].");
+            "Name two bodies or fingers, e.g. between: [A index, B index].");
     }
     if (spec_.stiffness == 0 && spec_.damping == 0) {
-        diagnostics.error(spec_.place, "stiffness", "is missing, and so is damping",
+        diagnostics.error(spec_.place, "stiffness", "is missing, and so is 'damping'",
                           "Add e.g. stiffness_N_m: 100.");
     }
 }
@@ -125,8 +125,8 @@ void Load::look_up_place(const Names& names, Diagnostics& diagnostics) {
     useless("to", !spec_.to.empty(), remedy);
     useless("free", spec_.free.has_value(), remedy);
     if (spec_.normal && spec_.axis) {
-        diagnostics.error(spec_.place, "normal", "defines a plane, but axis defines a line",
-                          "Keep one or the other.");
+        diagnostics.error(spec_.place, "normal", "defines a plane, but 'axis' defines a line",
+                          "Keep only one of them.");
     } else if (spec_.normal) {
         shape_ = Shape::plane;
         direction_ = axis_of(spec_.normal, spec_.place, "normal", diagnostics);
@@ -168,7 +168,7 @@ void Load::check_spring(Diagnostics& diagnostics) const {
 
 void Load::check_general(Diagnostics& diagnostics) {
     if (spec_.A.isZero(0) && spec_.B.isZero(0) && spec_.force == FormulaVec3{}) {
-        diagnostics.error(spec_.place, "A", "is missing, and so are B and force",
+        diagnostics.error(spec_.place, "A", "is missing, and so are 'B' and 'force'",
                           "Add e.g. B_Ns_m: [[0, -13, 0], [13, 0, 0], [0, 0, 0]].");
     }
     if (spec_.about.empty() && (!spec_.A.isZero(0) || spec_.zone)) {

@@ -38,13 +38,14 @@ constexpr auto enum_names(LoadKind) {
     return std::array{"constant", "viscous", "curl", "general", "spring", "channel", "link"};
 }
 
-/// What a link may do: rods do both, ropes pull, walls push.
+/// Directions of a link's force: rods pull and push, ropes only pull, walls only push.
 enum class LinkActs { both, pulls, pushes };
 constexpr auto enum_names(LinkActs) {
     return std::array{"both", "pulls", "pushes"};
 }
 
-/// A load as described in an experiment file. Keys that its kind does not use are unknown.
+/// A load as described in an experiment file. Keys that its kind does not use are reported as
+/// unknown.
 struct LoadSpec {
     using Effect = Load;
 
@@ -53,18 +54,18 @@ struct LoadSpec {
     FormulaVec3 force;           ///< f0 [N]
     FormulaVec3 torque;          ///< t0 [N*m]
     Formula damping = 0;         ///< b [N*s/m]
-    Formula stiffness = 0;       ///< k; it pushes away if negative [N/m]
+    Formula stiffness = 0;       ///< k; if negative, the load pushes away [N/m]
     Mat3 A = Mat3::Zero();       ///< [N/m]
     Mat3 B = Mat3::Zero();       ///< [N*s/m]
     Ref<Region> about;           ///< p0, or a point of the line or plane
     std::optional<Vec3> axis;    ///< e of a curl field; direction of a spring's line
     std::optional<Vec3> normal;  ///< of a plane
-    Ref<Region> from;            ///< on the line
-    Ref<Region> to;              ///< on the line
+    Ref<Region> from;            ///< start of the line
+    Ref<Region> to;              ///< another point of the line
     std::optional<Vec3> free;    ///< direction that spans a plane with the line
-    bool one_sided = false;      ///< a plane acts only opposite to its normal
+    bool one_sided = false;      ///< a plane acts only on the side opposite to its normal
     std::optional<double> zone;  ///< distance at which fading starts [m]
-    double fade = 0.01;          ///< distance over which it fades [m]
+    double fade = 0.01;          ///< distance over which the load fades [m]
     Refs<Thing> between;         ///< the two ends of a link
     Formula length = 0;          ///< L of a link [m]
     LinkActs acts = LinkActs::both;
@@ -127,7 +128,7 @@ struct LoadSpec {
                   .says("Age of the position and velocity from which the load is computed."));
     }
 
-    /// Whether it is a field whose force depends on the velocity, alone or with other terms.
+    /// Whether the load is a field whose force depends on the velocity, alone or with other terms.
     bool pushes_by_velocity() const;
 
   private:
@@ -144,7 +145,7 @@ struct LoadSpec {
         v("damping", damping,
           Field::of(Quantity::damping)
               .within(-1000, 1000)
-              .says("Damping; the load drives motion on if it is negative."));
+              .says("Damping; if it is negative, the load amplifies motion."));
     }
     template <class Visitor>
     void visit_place(Visitor& v) {
@@ -177,19 +178,19 @@ struct LoadSpec {
           Field::of(Quantity::damping).within(0, 1000).says("Damping of its length."));
         v("length", length,
           Field::length().within(0, 100).says("Distance of its ends at which a link is slack."));
-        v("acts", acts, says("Whether it pulls, pushes, or does both."));
+        v("acts", acts, says("Whether the link pulls, pushes, or does both."));
     }
     template <class Visitor>
     void visit_zone(Visitor& v, const char* name) {
         v(name, zone,
           Field::length().positive().at_most(10).says(
-              "Distance beyond which the load fades; it does not fade if omitted."));
+              "Distance beyond which the load fades; if omitted, the load does not fade."));
         v("fade", fade,
           Field::length().within(1e-4, 10).says("Distance over which the load fades to zero."));
     }
 };
 
-/// Adds the load's kind and size, as worded in a report.
+/// Adds a description of the load's kind and size, for a report.
 void say(const LoadSpec& spec, std::vector<std::string>& out);
 
 /// A load whose names have been looked up. In the tick it neither allocates nor throws.
@@ -200,13 +201,13 @@ class Load {
          Diagnostics& diagnostics);
 
     const LoadSpec& spec() const { return spec_; }
-    /// Whether any of its numbers is a formula.
+    /// Whether any of the load's numbers is a formula.
     bool is_computed() const;
     double stiffness() const { return spec_.stiffness.value; }
     double delay() const { return spec_.delay.value; }
-    /// Upper bound of its delay [s].
+    /// Upper bound of the load's delay [s].
     double longest_delay() const;
-    /// Its objects: indices of bodies; fingers come after the scene's bodies.
+    /// The load's objects, as indices of bodies; fingers come after the scene's bodies.
     std::span<const int> on() const { return spec_.on.indices; }
     void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                frame::TaskFrame& out) const noexcept;
@@ -214,23 +215,24 @@ class Load {
     void visit(Visitor& v) {
         spec_.visit(v);
     }
-    /// Its force and torque on a thing with this motion. `regions_W`: centres of the regions [m].
+    /// The load's force and torque on a thing with this motion. `regions_W`: centres of the regions
+    /// [m].
     Wrench act(double share, std::span<const Vec3> regions_W, const Motion& motion) const noexcept;
-    /// Matrix from velocity to its force at share 1 [N*s/m]; zero for channels and springs.
+    /// Matrix from velocity to the load's force at share 1 [N*s/m]; zero for channels and springs.
     Mat3 velocity_gain() const;
     /// Axis of a curl field; otherwise unset.
     std::optional<Vec3> axis() const;
 
-    /// Its largest demand on a loop: norms of the matrices from position and velocity to its force,
-    /// and its largest force and torque.
+    /// The load's largest demands on a control loop: norms of the matrices from position and
+    /// velocity to its force, and its largest force and torque.
     struct Demand {
-        double stiffness = 0;  ///< including the contribution of its fading [N/m]
+        double stiffness = 0;  ///< including the contribution of the fading [N/m]
         double damping = 0;    ///< [N*s/m]
         double driving = 0;    ///< largest negative damping, which amplifies motion [N*s/m]
-        double force = 0;      ///< at rest; infinite if it grows with the distance [N]
+        double force = 0;      ///< at rest; infinite if the force grows with the distance [N]
         double torque = 0;     ///< [N*m]
-        bool holds = false;    ///< it holds a hand in place, and may be as stiff as possible
-        bool springs = false;  ///< its force is proportional to displacement, not speed
+        bool holds = false;    ///< the load holds a hand in place, so may be as stiff as possible
+        bool springs = false;  ///< the force is proportional to displacement, not speed
     };
     Demand demand() const;
 
@@ -249,7 +251,7 @@ class Load {
     LoadSpec spec_;
     Shape shape_ = Shape::point;
     Vec3 direction_ = Vec3::UnitZ();  // e, direction of a line, or normal of a plane
-    bool between_ = false;            // its line leads from one region to another
+    bool between_ = false;            // the line leads from one region to another
     int origin_ = -1;                 // region of p0, or of the line's start
 };
 

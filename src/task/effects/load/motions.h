@@ -13,11 +13,11 @@ namespace dihaptic::task {
 
 struct Motion {
     Vec3 p_W = Vec3::Zero();  ///< position of the handle, or of the body's origin [m]
-    Vec3 v_W = Vec3::Zero();  ///< its velocity [m/s]
+    Vec3 v_W = Vec3::Zero();  ///< velocity of that point [m/s]
 };
 
 /// Things have the same indices as bodies in the Frame: the scene's bodies, then the fingers'
-/// handles. Once constructed, it allocates nothing.
+/// handles. Once constructed, Motions allocates nothing.
 class Motions {
   public:
     /// `longest`: the longest delay [s].
@@ -27,7 +27,7 @@ class Motions {
           rows_(static_cast<size_t>(ticks(longest)) + 1, std::vector<Motion>(bodies + fingers)),
           known_(bodies + fingers, 0) {}
 
-    /// Starts a tick: handles are from this tick, bodies from the end of the last one.
+    /// Starts a tick: stores the handles of this tick, and the bodies at the end of the last one.
     void add(const frame::Frame& last, std::span<const frame::Handle> handles) noexcept {
         now_ = (now_ + 1) % rows_.size();
         for (size_t i = 0; i < bodies_ && last.sequence >= 0; ++i)
@@ -35,14 +35,15 @@ class Motions {
         for (size_t i = 0; i < handles.size(); ++i)
             set(bodies_ + i, {handles[i].p_WH, handles[i].v_WH});
     }
-    /// The body is placed at rest at p_W in this tick: its earlier motion is discarded.
+    /// Places the body at rest at p_W in this tick, and discards its earlier motion.
     void put(int body, const Vec3& p_W) noexcept {
         known_[static_cast<size_t>(body)] = 0;
         set(static_cast<size_t>(body), {p_W, Vec3::Zero()});
     }
     void forget() noexcept { std::fill(known_.begin(), known_.end(), 0); }
 
-    /// Motion of the thing `delay` ago [s], or its oldest known motion; null if there is none.
+    /// Motion of the thing `delay` [s] ago, or its oldest known motion if that is more recent; null
+    /// if none is known.
     const Motion* of(int thing, double delay) const noexcept {
         const auto i = static_cast<size_t>(thing);
         if (known_[i] == 0) return nullptr;

@@ -52,7 +52,7 @@ void VisualEffect::check(Diagnostics& diagnostics) const {
     };
     const bool moves_object = (moves_ & frame::kMovesObject) != 0;
     if (displaces(spec_) && !moves_object && (moves_ & frame::kMovesProxies) == 0)
-        error(spec_.delay != 0 ? "delay" : "noise", "needs proxies or the object among moves",
+        error(spec_.delay != 0 ? "delay" : "noise", "needs 'proxies' or 'object' among 'moves'",
               "Add 'proxies' to 'moves'.");
     if (moves_object && object_ < 0)
         error("moves", "the scene has no movable object", "Leave out 'object'.");

@@ -31,12 +31,12 @@ struct VisualSpec {
     FormulaVec3 scale{1, 1, 1};  ///< along the world axes
     std::optional<Vec3> axis;    ///< axis of the rotation
     Formula angle = 0;           ///< angle of the rotation, right-handed [rad]
-    Ref<Region> toward;          ///< motion is shown on the line from `about` to it, at
+    Ref<Region> toward;          ///< motion is shown on the line from `about` to this region, at
                                  ///< its true distance from `about`
     Formula size = 1;            ///< ratio of the object's displayed size to its true size
     Formula delay = 0;           ///< display delay of proxies and object [s]
     FormulaVec3 shift{};         ///< displacement of what is shown, in W [m]
-    Vec3 noise = Vec3::Zero();   ///< SD of noise on their displayed positions, in W [m]
+    Vec3 noise = Vec3::Zero();   ///< SD of noise on displayed positions, in W [m]
     Place place;
 
     template <class Visitor>
@@ -71,11 +71,11 @@ struct VisualSpec {
               "Displacement of what is shown, along the world axes, after scaling and rotation."));
         v("noise", noise,
           Field::length().within(0, 1).says(
-              "Standard deviation of noise on their displayed positions, along the world axes."));
+              "Standard deviation of noise on the displayed positions, along the world axes."));
     }
 };
 
-/// Adds the changes and their size, as worded in a report.
+/// Adds descriptions of the changes and their sizes, for a report.
 void say(const VisualSpec& spec, std::vector<std::string>& out);
 
 class VisualEffect {
@@ -84,9 +84,9 @@ class VisualEffect {
     VisualEffect(const VisualSpec& spec, const Names& names, const scene::Scene& scene,
                  Diagnostics& diagnostics);
 
-    /// The axis of its rotation; unset if there is no rotation.
+    /// The axis of the map's rotation; unset if there is no rotation.
     std::optional<Vec3> axis() const;
-    /// Upper bound of its delay [s].
+    /// Upper bound of the map's delay [s].
     double longest_delay() const;
     void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                frame::TaskFrame& out) const noexcept;

@@ -22,7 +22,7 @@ std::vector<double> grid(double first, double last, double step) {
 struct Case {
     std::string name;
     Procedure procedure;
-    double target;  ///< probability of "yes" at the threshold that it estimates
+    double target;  ///< probability of "yes" at the threshold that the procedure estimates
 };
 
 std::vector<Case> cases() {

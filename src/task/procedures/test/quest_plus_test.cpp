@@ -27,7 +27,7 @@ void expect_run(QuestPlus& quest, const std::vector<double>& placements,
     }
 }
 
-/// Settings for contrast in dB, as in the paper, whose slopes are for levels / 20; ours for levels.
+/// Settings for contrast in dB, as in the paper. Its slopes refer to levels / 20, ours to levels.
 QuestPlusSettings contrast(std::vector<double> slopes_per_20_db, std::vector<double> lapses) {
     for (double& s : slopes_per_20_db) s /= 20;
     return {.levels = range(-40, 0),

@@ -65,7 +65,7 @@ TEST(Staircase, EstimatesFromAnEvenNumberOfReversals) {
     EXPECT_TRUE(std::isnan(staircase.estimate().threshold));
     levels(staircase, "0110");  // reversals 8, 10, 8
     EXPECT_EQ(staircase.estimate().threshold, 9);
-    levels(staircase, "001");  // 11: of an odd number, the first is left out
+    levels(staircase, "001");  // adds 11; of three reversals, the first is left out
     EXPECT_EQ(staircase.reversals(), (std::vector<double>{8, 10, 8, 11}));
     EXPECT_EQ(staircase.estimate().threshold, 9.5);
     EXPECT_TRUE(std::isnan(staircase.estimate().low));
