@@ -20,8 +20,8 @@ fs::path file_itself(const std::string& path) {
 
 bool is_entry(const Node& item, const fs::path& file) {
     if (item.kind != Node::Kind::scalar || !fs::path(item.scalar).is_absolute()) {
-        throw Error(item.place, "", "must be an absolute path, starting with / (~ is not replaced)",
-                    "Write a line for each, e.g. '- /opt/OpenHaptics/lib/libHD.so'.");
+        throw Error(item.place, "", "must be an absolute path, starting with / (~ is not expanded)",
+                    "Write one line for each library, e.g. '- /opt/OpenHaptics/lib/libHD.so'.");
     }
     return file_itself(item.scalar) == file;
 }
@@ -46,7 +46,7 @@ bool is_allowed_library(const std::string& path) {
     if (allowed.kind == Node::Kind::null) return false;
     if (allowed.kind != Node::Kind::sequence) {
         throw Error({list, 0}, "", "is not a list of libraries",
-                    "Write a line for each, e.g. '- /opt/OpenHaptics/lib/libHD.so'.");
+                    "Write one line for each library, e.g. '- /opt/OpenHaptics/lib/libHD.so'.");
     }
     return std::any_of(allowed.items.begin(), allowed.items.end(),
                        [&](const Node& item) { return is_entry(item, file); });

@@ -14,8 +14,8 @@ namespace dihaptic {
 /// Path of the list; "" if the user has no home.
 std::string allowed_libraries_file();
 
-/// Whether the loader itself looks for a library with this name in the system's folders: the name
-/// has no folder.
+/// Whether the loader itself looks for a library with this name in the system's folders, which it
+/// does if the name has no folder.
 bool is_system_library(const std::string& name);
 
 /// Whether the list contains this file. Throws Error when the list cannot be read.

@@ -44,7 +44,7 @@ Child::~Child() {
     wait();
 }
 
-/// Whether it has ended. From then on another program may get its process number.
+/// Whether the child has ended. From then on another program may get its process number.
 bool Child::reap(int options) noexcept {
     if (process_ == 0) return true;
     int status = 0;

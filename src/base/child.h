@@ -30,18 +30,19 @@ struct Launch {
 class Child {
   public:
     Child() = default;
-    /// Kills it, unless it has ended.
+    /// Kills the child, unless it has ended.
     ~Child();
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
     /// Returns 0 or an error number.
     int start(const Launch& launch);
-    /// Its process number; 0 if it was not started, or is known to have ended.
+    /// The child's process number; 0 if it was not started, or is known to have ended.
     pid_t process() const noexcept { return process_; }
-    /// Also true if it was not started.
+    /// Also true if the child was not started.
     bool has_ended() noexcept { return reap(WNOHANG); }
-    /// Waits until it has ended. Returns its status, as waitpid() does; nullopt if that is unknown.
+    /// Waits until the child has ended. Returns its status, as waitpid() does; nullopt if that is
+    /// unknown.
     std::optional<int> wait() noexcept {
         reap(0);
         return status_;

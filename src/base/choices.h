@@ -37,7 +37,7 @@ inline std::string listed(const std::vector<std::string>& names) {
     return out;
 }
 
-/// The remedy for a name that is not among these: "Did you mean x?", or "Known: x, y.".
+/// The remedy for a name that is not among `names`: "Did you mean x?", or "Known: x, y.".
 inline std::string meant(const std::string& name, const std::vector<std::string>& names,
                          const Diagnostics& so_far, const char* these = "Known:") {
     if (so_far.problems().size() > kMostExplained) return "";

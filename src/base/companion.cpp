@@ -99,7 +99,7 @@ bool wait_for(pid_t process, const CompanionTask& task) {
 }
 
 struct Ended {
-    int status = 1 << 8;  // an unknown one counts as a refusal of the input
+    int status = 1 << 8;  // an unknown status is treated as a refusal of the input
     bool late = false;
 };
 

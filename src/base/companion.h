@@ -41,7 +41,7 @@ struct CompanionTask {
 
 /// Called by a thread that waits for a companion, after one second and again each time the waiting
 /// time has doubled. `what` is CompanionTask::what; `most`: the time after which the companion is
-/// killed [s]. Null, the default: no call.
+/// killed [s]. With null, the default, nothing is called.
 using CompanionWait = void (*)(const std::string& what, int seconds, int most);
 void tell_companion_waits(CompanionWait tell) noexcept;
 

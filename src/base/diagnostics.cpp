@@ -36,7 +36,8 @@ std::string Problem::text() const {
 
 namespace {
 
-/// The line of the key, with or without its unit, if `place` is that of a mapping that has the key.
+/// The line of the key, with or without its unit, if `place` is the place of a mapping that
+/// contains the key.
 Place place_of(const Place& place, const std::string& key) {
     Place out{place.file, place.line};
     if (!place.keys || key.empty()) return out;
@@ -77,7 +78,7 @@ Error::Error(const Place& place, std::string key, std::string what, std::string 
 
 namespace {
 
-/// Nobody corrects more problems than this at a time, and a file may have a hundred thousand.
+/// Nobody corrects more problems than this at a time, and a file may contain a hundred thousand.
 constexpr size_t kMostErrors = 200;
 constexpr size_t kMostWarnings = 1000;
 constexpr const char* kMore = "there are more problems than those above";

@@ -42,7 +42,7 @@ struct Field {
     bool above_min = false;  ///< the minimum itself is not allowed
     bool is_required = false;
     Tighter tighter = Tighter::none;
-    const char* old_name = nullptr;  ///< in older files
+    const char* old_name = nullptr;  ///< name in older files
     std::string_view what = {};      ///< a sentence for docs/reference.md
 
     static constexpr Field number() { return {}; }

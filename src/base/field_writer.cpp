@@ -15,7 +15,8 @@ Node exact(const Vec3& value) {
     return list;
 }
 
-/// Whether a word is a number in the form in which we write it: levels may be numbers or texts.
+/// Whether a word is a number in the form in which we write it; a text in a list may be either a
+/// number or a word.
 bool is_as_written(const std::string& word) {
     if (const auto whole = whole_number<uint64_t>(word)) return number_text(*whole) == word;
     const auto number = finite_number(word);

@@ -54,7 +54,7 @@ class FigureLister {
         columns.push_back(std::move(figure.column));
         cells.push_back(cell(value, figure.scale));
     }
-    /// Figures within figures have both names: "awake.median_us".
+    /// Figures nested in others have both names: "awake.median_us".
     template <class T>
     requires requires(const T& figures, FigureLister& lister) { T::visit(figures, lister); }
     void operator()(std::string_view name, const T& value, std::string_view, std::string_view) {

@@ -16,10 +16,10 @@ struct Formula {
     double value = 0;  ///< the number, or the text's result in the present trial, in SI units
     std::string text;  ///< empty: a plain number
     double to_si = 1;  ///< unit of the key, which applies to a text without a dimension
-    std::string key;   ///< as in the file
+    std::string key;   ///< the key as in the file
     Place place;
     Field field;     ///< bounds of the text's result
-    int index = -1;  ///< of the compiled text; -1: none
+    int index = -1;  ///< index of the compiled text; -1: none
 
     Formula() = default;
     Formula(double number) : value(number) {}  // NOLINT(google-explicit-constructor)

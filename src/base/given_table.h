@@ -24,11 +24,11 @@ class GivenTable {
     /// Cells of the next line that is not empty, without the blanks around them; nullopt at the
     /// end. Throws Error if a line has an unclosed quote or thousands of cells.
     std::optional<std::vector<std::string>> next();
-    /// The number of the line that next() will return.
+    /// The cells that next() will return.
     std::optional<std::vector<std::string>> peek() const { return GivenTable(*this).next(); }
-    /// The number of the line that next() returned.
+    /// The line that next() returned.
     Place place() const { return {file_, line_}; }
-    /// Whether empty lines preceded it.
+    /// Whether empty lines preceded that line.
     bool after_gap() const { return gap_; }
 
     /// The number in a cell; nullopt if it is not a number. Throws Error when the table has both
@@ -38,7 +38,7 @@ class GivenTable {
     void tell_commas(Diagnostics& diagnostics) const;
 
     char separator() const { return separator_; }
-    /// "semicolons", for messages.
+    /// The separator in words, e.g. "semicolons", for messages.
     const char* separators() const;
 
   private:

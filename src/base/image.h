@@ -12,7 +12,7 @@ struct Image {
     int width = 0;
     int height = 0;
     std::vector<uint8_t> rgb;   ///< sRGB, three bytes per pixel, rows from top to bottom
-    std::string checksum = {};  ///< of the file from which it was read (base/checksum.h)
+    std::string checksum = {};  ///< checksum of the file from which it was read (base/checksum.h)
 
     const uint8_t* at(int x, int y) const {
         return &rgb[3 *
@@ -30,8 +30,8 @@ Image read_png(const std::string& file);
 struct GreyImage {
     int width = 0;
     int height = 0;
-    std::vector<float> grey;    ///< 0, black, to 1, white: mean of the colours as stored
-    std::string checksum = {};  ///< of the file from which it was read (base/checksum.h)
+    std::vector<float> grey;    ///< from 0 (black) to 1 (white): mean of the colours as stored
+    std::string checksum = {};  ///< checksum of the file from which it was read (base/checksum.h)
 };
 /// Throws Error like read_png(), and also if a pixel is not opaque, because a number cannot be
 /// half transparent.

@@ -11,14 +11,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The shared library that contains this function, if there is one. The running program is then a
-/// different one, such as Python.
+/// The shared library that contains this function, if there is one. The running program is then
+/// another, such as Python.
 fs::path file_of_this() {
     std::error_code ignored;
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
     Dl_info info{};
     if (dladdr(reinterpret_cast<const void*>(&file_of_this), &info) == 0) return program;
-    // for a program this is the name with which it was started, which may be on PATH only
+    // for a program, dli_fname is the name with which it was started, and may be found through PATH
+    // only
     const fs::path library = fs::canonical(info.dli_fname, ignored);
     return ignored || library.extension() != ".so" ? program : library;
 }

@@ -226,7 +226,7 @@ void SchemaLister::add(std::string_view name, const Field& field, const Node& wr
     keep_one_default(names.size(), best);
 }
 
-/// An editor inserts all keys with a default when it starts a mapping, so each value has its
+/// When an editor starts a mapping, it inserts all keys that have a default, so each value has its
 /// default in one unit only.
 void SchemaLister::keep_one_default(size_t units, const Json& best) {
     bool kept = false;

@@ -70,9 +70,9 @@ class JsonSchema {
         return whole(object(value, heading), heading);
     }
 
-    /// The schema of yes and no.
+    /// The schema of a value that is yes or no.
     static Json yes_or_no() { return {{"enum", {"yes", "no", true, false, "true", "false"}}}; }
-    /// The schema of any word or text, even a number, yes or true.
+    /// The schema of any word or text, even a number, "yes" or "true".
     static Json word();
 
   private:

@@ -25,9 +25,9 @@ class Library {
         std::vector<Need> needs;
     };
 
-    /// Loads the first file that can be loaded, or only `path`, unless it is empty. The library is
-    /// never unloaded: such libraries start threads that outlive their last call. Throws Error for
-    /// `place` with the loader's message for each file.
+    /// Loads `path` or, if that is empty, the first of the spec's files that can be loaded. The
+    /// library is never unloaded: such libraries start threads that outlive their last call. Throws
+    /// Error for `place` with the loader's message for each file.
     Library(Spec spec, const std::string& path, Place place);
 
     /// The file that was loaded.

@@ -62,8 +62,8 @@ void Node::set(const std::string& key, Node value) {
 
 namespace {
 
-/// An alias (*name) inside the node that it refers to would never end, and aliases of aliases
-/// double at each level.
+/// An alias (*name) inside the node that it refers to would never end, and aliases of aliases can
+/// double the document at each level.
 constexpr size_t kDeepest = 32;
 constexpr size_t kMostNodes = 500'000;
 
@@ -159,7 +159,7 @@ void TreeBuilder::check_single(const Place& place) const {
 /// `height`: levels below the node that starts here.
 void TreeBuilder::check_size(const Place& place, size_t height) const {
     if (open_.size() + height > kDeepest)
-        throw Error(place, "", fmt::format("is nested too deeply: in more than {} lists", kDeepest),
+        throw Error(place, "", fmt::format("is nested too deeply: more than {} levels", kDeepest),
                     "Look for brackets that are not closed, or write it out without aliases "
                     "(*name).");
     if (count_ > kMostNodes)
@@ -328,8 +328,8 @@ void emit(const Node& node, YAML::Emitter& out) {
 
 namespace {
 
-/// Whether a text without quotes ends with a question mark in brackets, where yaml-cpp takes the
-/// mark for the beginning of a key. `line`: from 0.
+/// Whether, inside brackets, a text without quotes ends with a question mark, which yaml-cpp takes
+/// for the beginning of a key. `line`: from 0.
 bool ends_with_question(const std::string& text, int line) {
     std::istringstream in(text);
     std::string one;

@@ -49,7 +49,7 @@ Node read_yaml(const std::string& file);
 Node parse_yaml(const std::string& text, const std::string& file, Words words = Words::checked);
 
 /// Texts are quoted wherever a reader of YAML 1.1, such as PyYAML or R, would read them as
-/// something else: 010 for 8, 1:30 for 90, no for false, a day for a date.
+/// something else: 010 as 8, 1:30 as 90, no as false, a day as a date.
 std::string to_yaml(const Node& node);
 
 }  // namespace dihaptic

@@ -35,7 +35,7 @@ uint32_t nobodys_guess() {
     return out;
 }
 
-/// Makes a new folder next to `file`, which only this user can enter.
+/// Makes a new folder next to `file`; only this user can enter the folder.
 std::string make_folder(const std::string& file) {
     for (int tries = 0; tries < 100; ++tries) {
         std::string folder =
@@ -80,7 +80,7 @@ void check_replaceable(const std::string& file) {
                 S_ISDIR(there.st_mode)
                     ? "cannot be written: it is a folder"
                     : "cannot be written: it is not a file, but a pipe, a socket or a device",
-                "Name another file, or move this away.");
+                "Name another file, or move this one away.");
 }
 
 Output::Output(const std::string& file) : file_(file) {
@@ -96,7 +96,7 @@ Output::~Output() {
 
 void Output::keep() {
     check_replaceable(file_);
-    struct stat there {};  // who may read the file stays as it was
+    struct stat there {};  // the file keeps its permissions
     constexpr mode_t kPermissions = 07777;
     if (::lstat(file_.c_str(), &there) == 0 &&
         ::chmod(path_.c_str(), there.st_mode & kPermissions) != 0)
@@ -125,7 +125,9 @@ void make_folders(const std::string& root, const std::string& below) {
         folder /= part;
         fs::create_directory(folder, failed);
         if (!fs::is_symlink(fs::symlink_status(folder))) continue;
-        throw Error({folder.string(), 0}, "", "is a link, and nothing is written through one",
+        throw Error({folder.string(), 0}, "",
+                    "is a link, and this program does not write through "
+                    "links",
                     "Remove the link, or name another folder.");
     }
     if (!failed && fs::is_directory(folder, failed)) return;

@@ -15,8 +15,8 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& file, int why) {
     if (why == EACCES) {
-        throw Error({file, 0}, "", "cannot be read: you have no permission to",
-                    "Give yourself the permission, e.g. chmod u+r.");
+        throw Error({file, 0}, "", "cannot be read: you do not have permission to read it",
+                    "Give yourself the permission, e.g. with chmod u+r.");
     }
     throw Error({file, 0}, "", fmt::format("cannot be read: {}", std::strerror(why)),
                 "Check the name and the folder.");

@@ -17,12 +17,12 @@ class RegularFile {
     /// Throws Error when the file does not exist, is not a regular file, or cannot be opened.
     explicit RegularFile(const std::string& file);
 
-    /// Size of the file when it was opened, or last checked again [bytes].
+    /// Size of the file when it was opened, or at the last look_again() [bytes].
     int64_t size() const { return size_; }
     /// Updates the size, because another program may be writing the file.
     void look_again();
     /// Reads from byte `at` on and returns the number of bytes read, which is smaller than
-    /// out.size() only at the file's end. Throws Error when the disk cannot read them.
+    /// out.size() only at the file's end. Throws Error when they cannot be read.
     size_t read(int64_t at, std::span<std::byte> out) const;
 
   private:

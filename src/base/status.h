@@ -89,7 +89,7 @@ constexpr StatusRow kStatusTable[] = {
     {kContactsFull, "more contacts than the reserved memory can hold",
      "raise settings: dynamics: max_contacts"},
     {kForceLimited, "a force or a torque was cut to the largest allowed",
-     "soften the coupling, or press less"},
+     "soften the coupling, or press less hard"},
     {kRateLimited, "a force or a torque was kept from changing faster than allowed",
      "soften the coupling, touch more slowly, or raise settings: safety: max_force_rate_N_s"},
     {kNotFinite,
@@ -141,7 +141,7 @@ constexpr StatusRow kStatusTable[] = {
        "the hands received no new force for {value_ms:.0f} ms, but only {limit_ms:g} ms are "
        "allowed"}}},
     {kHeatLimited, "a force or a torque was cut to a level that the device's motors can sustain",
-     "press less, or for shorter; the force returns as they cool"},
+     "press less hard, or for less time; the force returns as the motors cool"},
     {kPushedInward, "a handle was pushed back into its device's workspace",
      "move the device in the rig file, or the hand"},
     {kSoftStarted, "a force was still rising after being switched on",

@@ -79,7 +79,7 @@ void write_csv(const Table& table, const std::string& file) {
 namespace {
 
 constexpr size_t kMostColumns = 10'000;
-constexpr size_t kMostCells = 20'000'000;  // in memory a cell takes more than its text
+constexpr size_t kMostCells = 20'000'000;  // a cell takes more memory than its text
 
 class CsvParser {
   public:
@@ -165,7 +165,7 @@ std::vector<std::vector<std::string>> read_csv(const std::string& file) {
                         "again from raw.log.");
     }
     if (rows.empty()) {
-        throw Error({file, 0}, "", "is empty, without the line that names its columns",
+        throw Error({file, 0}, "", "is empty: even the line that names its columns is missing",
                     "Replace it by a backup; dihaptic recover makes a session's tables "
                     "again from raw.log.");
     }

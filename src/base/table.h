@@ -14,7 +14,7 @@ namespace dihaptic {
 
 struct Table {
     struct Column {
-        std::string name;  ///< with its unit, e.g. "peak_grip_N"
+        std::string name;  ///< name with its unit, e.g. "peak_grip_N"
         std::string description;
         std::string unit = {};  ///< e.g. "N/s"; empty for pure numbers and texts
 

@@ -9,7 +9,7 @@
 namespace dihaptic {
 
 struct TextTable {
-    std::string name;  ///< of its file, e.g. "trials.csv"
+    std::string name;  ///< name of its file, e.g. "trials.csv"
     std::vector<Table::Column> columns;
     std::vector<std::vector<std::string>> rows;  ///< without the header
 };

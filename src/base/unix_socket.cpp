@@ -8,7 +8,7 @@ namespace dihaptic {
 UnixAddress UnixAddress::of_name(const std::string& name) noexcept {
     UnixAddress out;
     const size_t length = std::min(name.size(), sizeof(out.address_.sun_path) - 1);
-    std::copy_n(name.begin(), length, out.address_.sun_path + 1);  // after a zero
+    std::copy_n(name.begin(), length, out.address_.sun_path + 1);  // after a zero byte: abstract
     out.size_ = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + length);
     return out;
 }

@@ -34,7 +34,7 @@ class UnixAddress {
     socklen_t size_ = sizeof(sockaddr_un);
 };
 
-/// A new socket, of a type such as SOCK_STREAM | SOCK_NONBLOCK. If it cannot be made, it is not
+/// A new socket, of a type such as SOCK_STREAM | SOCK_NONBLOCK. On failure the descriptor is not
 /// open, and errno is set.
 Descriptor unix_socket(int type) noexcept;
 /// The same for two sockets that are connected with each other.

@@ -19,8 +19,8 @@ namespace dihaptic::devices {
 class DeviceClaim {
   public:
     /// Waits for up to `patience`, because a session that is ending may still be closing its
-    /// devices. Throws Error for `place` if another owner still has it then. `info`: that of an
-    /// open device.
+    /// devices. Throws Error for `place` if another owner still holds the device after that.
+    /// `info`: that of an open device.
     DeviceClaim(const std::string& backend, const frame::DeviceInfo& info, const Place& place,
                 Time patience);
 

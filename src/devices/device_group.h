@@ -2,7 +2,8 @@
 //
 // The construction of a group configures it, and may allocate and throw an Error with the remedy.
 // Then come activate(), any number of pairs of read() and write(), one pair a tick, and
-// deactivate(). The pair neither allocates nor throws; trouble appears in each reading's status.
+// deactivate(). The pair neither allocates nor throws; problems are reported in each reading's
+// status.
 #pragma once
 
 #include <cassert>
@@ -60,7 +61,8 @@ struct Context {
     hand::Impedance impedance;
     hand::TremorSpec tremor;
     uint64_t seed = 0;
-    /// For replay: the recorded devices, and the readings of a tick; false after the last tick.
+    /// For replay: the recorded devices, and a function that gives the readings of a tick, or
+    /// returns false after the last tick.
     struct Recording {
         std::vector<frame::DeviceInfo> devices;
         std::function<bool(Time, std::span<Reading>)> read;
@@ -98,8 +100,8 @@ class DeviceGroup {
     }
     /// Commands forces and torques on the endpoints, in the axes of D, one wrench for each device,
     /// to hold until the next write. Torques are zero for devices that render none. No device is
-    /// ever sent more than its peak or limit(): a larger vector is scaled down to it, which appears
-    /// in the next reading's status, and a vector that is not finite becomes zero.
+    /// ever sent more than its peak or limit(): a larger vector is scaled down to that limit, and
+    /// the next reading's status reports this; a vector that is not finite becomes zero.
     void write(std::span<const Wrench> wrenches_D) noexcept;
     /// Limits the commands to a device from now on [N], [N*m]; its peaks remain in effect.
     void limit(int device, double force, double torque) noexcept;
@@ -109,12 +111,14 @@ class DeviceGroup {
     /// Whether the devices determine when a tick is due; then pace() is called.
     virtual bool paces() const { return false; }
     /// Calls `tick`, which does one read() and one write(), whenever the devices are ready, until
-    /// it returns false; from this thread or one of the manufacturer's, but never two at a time.
+    /// `tick` returns false. The calls come from this thread or one of the manufacturer's, but
+    /// never two at a time.
     void pace(const std::function<bool()>& tick) {
         assert(active_ && paces());
         do_pace(tick);
     }
-    /// Whether stop() may be called: from any thread, while another is in read() or write().
+    /// Whether stop() may be called. If so, any thread may call it, even while another is in read()
+    /// or write().
     virtual bool can_stop() const { return false; }
     /// Switches force off at once on all devices, whatever is written, until they are activated
     /// again. Returns whether force is known to be off.

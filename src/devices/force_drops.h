@@ -1,6 +1,6 @@
 // Distinguishes a single cut of a device's force from a fault. Devices cut their own force if too
-// much is requested, and restore it. A single cut is an event; repeated cuts are a fault, because a
-// person without a message would think that the world is broken.
+// much is requested, and restore it. A single cut is an event; repeated cuts are a fault, because
+// without a message a person would think that the simulated world is broken.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,8 @@ namespace dihaptic::devices {
 
 class ForceDrops {
   public:
-    static constexpr Time kApart = std::chrono::seconds(1);    ///< drops further apart are single
+    static constexpr Time kApart = std::chrono::seconds(1);    ///< drops further apart than this
+                                                               ///< are separate events
     static constexpr Time kLongest = std::chrono::seconds(2);  ///< a longer series is a fault
 
     /// The Status of a tick at `now`; `dropped`: whether force was cut in that tick.

@@ -49,7 +49,7 @@ XrSwapchainSubImage whole(const Pictures& pictures) {
     return out;
 }
 
-/// Waits for a free picture, and returns it, drawn, at the end of the scope.
+/// Waits for a free picture to draw, and gives it back to the runtime at the end of the scope.
 class Taken {
   public:
     explicit Taken(const Pictures& pictures) : pictures_(pictures) {
@@ -104,8 +104,8 @@ void Eyes::connect() {
         case XR_ERROR_RUNTIME_UNAVAILABLE:
         case XR_ERROR_RUNTIME_FAILURE:
             throw Error("there is no OpenXR runtime, or it is not running",
-                        "Start the headset's own runtime, such as Monado or SteamVR, and let it "
-                        "make itself the active one: ~/.config/openxr/1/active_runtime.json.");
+                        "Start the headset's own runtime, such as Monado or SteamVR, and make it "
+                        "the active one: ~/.config/openxr/1/active_runtime.json.");
         case XR_ERROR_EXTENSION_NOT_PRESENT:
             throw Error(
                 "the active OpenXR runtime does not support OpenGL",

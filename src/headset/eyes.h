@@ -25,8 +25,8 @@ class Eyes {
   public:
     static constexpr size_t kCount = 2;  // left, right
 
-    /// Throws Error when there is no runtime, no headset, or no such space. `gl` must be current,
-    /// and outlive this object.
+    /// Throws Error when there is no runtime, no headset, or not the space that `place` requires.
+    /// `gl` must be current, and outlive this object.
     Eyes(const display::Headset& place, const GlxContext& gl);
     Eyes(const Eyes&) = delete;
     Eyes& operator=(const Eyes&) = delete;
@@ -44,10 +44,10 @@ class Eyes {
     /// The viewpoints for a picture.
     struct Look {
         XrTime time = 0;
-        bool drawn = false;  ///< whether it will be visible
+        bool drawn = false;  ///< whether the picture will be visible
         std::array<view::Viewpoint, kCount> eyes;
         Pose X_WV;             ///< pose of the head
-        bool tracked = false;  ///< whether it was measured
+        bool tracked = false;  ///< whether the head's pose was measured
     };
     /// Waits until the next picture is due, and returns its viewpoints.
     Look begin_picture();

@@ -11,7 +11,7 @@ namespace dihaptic::headset {
 /// An OpenGL 3.3 core context, current in the thread that made it, with its own connection to X11.
 class GlxContext {
   public:
-    /// Throws Error when there is no X11, or no such OpenGL.
+    /// Throws Error when there is no X11, or no OpenGL 3.3.
     GlxContext();
     ~GlxContext();
     GlxContext(const GlxContext&) = delete;

@@ -19,7 +19,7 @@ namespace dihaptic::headset {
 
 /// A picture that was handed to the headset.
 struct Showing {
-    int64_t tick = 0;  ///< of the frame that it shows
+    int64_t tick = 0;  ///< tick of the frame that it shows
     /// Time when its light appears, as predicted by the runtime; without a prediction, when the
     /// picture was submitted.
     std::chrono::steady_clock::time_point at;
@@ -51,8 +51,8 @@ class Headset {
     Headset& operator=(const Headset&) = delete;
 
     /// From now on shows the newest of these frames, which belong to that scene. The headset's
-    /// thread is their reader. A frame with a negative `sequence` belongs to no tick, and leaves no
-    /// Showing.
+    /// thread is their reader. A frame with a negative `sequence` belongs to no tick, and produces
+    /// no Showing.
     void show(const scene::Scene& scene, std::shared_ptr<Frames> frames);
     void set_words(Words words);
 

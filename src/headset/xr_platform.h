@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <ctime>
 
-// these first: OpenXR's header does not include them
+// included first, because OpenXR's header does not include them
 #include <epoxy/gl.h>
 #include <epoxy/glx.h>
 

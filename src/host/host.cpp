@@ -79,8 +79,8 @@ int keep(const InRealTime& in_real_time) {
         mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE, MAP_SHARED, kMemory, 0);
     if (at == MAP_FAILED) return EXIT_FAILURE;
     auto& page = *static_cast<SharedPage*>(at);
-    // the device host ends with the program or with the machine, but not through the terminal's
-    // keys
+    // the device host ends with the program or with the machine, but not when keys such as Ctrl-C
+    // are pressed in the terminal
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU})
         std::signal(signal, SIG_IGN);
     for (const int signal : kErrors) std::signal(signal, on_own_error);

@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A device host is abandoned when its silence is this much longer than the program's may be.
+/// A device host is abandoned when it has been silent for this much longer than the program may be.
 constexpr Time kPatience = std::chrono::milliseconds(20);
 /// Limit for making and activating devices: opening and calibrating them is slow.
 constexpr Time kSetUp = std::chrono::seconds(60);
@@ -30,9 +30,10 @@ constexpr Time kSetUp = std::chrono::seconds(60);
 constexpr Time kSetDown = std::chrono::seconds(2);
 /// Limit for the first tick of devices that pace.
 constexpr Time kBeginning = std::chrono::seconds(3);
-/// Least limit for each later tick of devices that pace, whose own clock may pause.
+/// Smallest limit for each later tick of devices that pace, whose own clock may pause.
 constexpr Time kSilence = std::chrono::milliseconds(200);
-/// Time for which an answer is awaited without sleeping: most arrive sooner than a wake-up.
+/// Time for which an answer is awaited without sleeping: most answers arrive sooner than a sleeping
+/// thread would wake up.
 constexpr Time kHope = std::chrono::microseconds(20);
 
 /// A device host's process, its socket and the page shared with it.
@@ -95,7 +96,8 @@ class Process {
     void start(const std::string& program, int socket, int memory) {
         static_assert(kSocket == 3 && kMemory == 4);
         constexpr int kKept = Launch::kKept;
-        // the device host gets neither the terminal's keys nor the signals blocked or ignored here
+        // keys in the terminal do not reach the device host, and it does not inherit the signals
+        // that are blocked or ignored here
         const int failed = child_.start({program,
                                          {},
                                          {kKept, kKept, kKept, socket, memory},

@@ -27,7 +27,7 @@ Place place_of(const json& at) {
     return {at.at(0).get<std::string>(), at.at(1).get<int>()};
 }
 
-/// The node with the position of each value in its file, for messages.
+/// The node as JSON, with the position of each value in its file, for messages.
 json tree(const Node& node) {
     json out{{"at", place(node.place)}};
     if (node.kind == Node::Kind::scalar) out["scalar"] = node.scalar;

@@ -12,8 +12,8 @@ namespace dihaptic::host {
 /// The settings of a device host.
 struct Hosting {
     std::string program;            ///< the device host's path: program() of hosted_devices.h
-    double longest_silence = 0.04;  ///< of the program, after which force is set to zero [s]
-    int priority = 80;              ///< for SCHED_FIFO, of the thread that serves the ticks
+    double longest_silence = 0.04;  ///< program's silence after which force is set to zero [s]
+    int priority = 80;              ///< SCHED_FIFO priority of the thread that serves the ticks
     /// Returns true to end the wait for a device host that does not answer, e.g. after
     /// Ctrl-C. May be empty.
     std::function<bool()> given_up = {};

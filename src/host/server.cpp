@@ -93,7 +93,7 @@ void Server::serve_all() noexcept {
             wait_on(page_.bell, bell, holding_ ? left : kIdle);
             continue;
         }
-        // after being stopped, a device host finds requests that were waiting meanwhile
+        // after being stopped, a device host finds requests that were made meanwhile
         heard = page_.asked_at.load(std::memory_order_relaxed);
         const Request request = page_.request.load(std::memory_order_relaxed);
         if (request == Request::quit) return;

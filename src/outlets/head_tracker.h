@@ -48,8 +48,8 @@ struct TrackedHead {
     int first = 0;       ///< channel of x, from 0; y, z and the quaternion follow
     StreamUnit unit = StreamUnit::m;
     StreamRotation quaternion = StreamRotation::wxyz;
-    Vec3 position = Vec3::Zero();  ///< of the tracker's frame S, in W [m]
-    Vec3 rotation = Vec3::Zero();  ///< of S about the world's axes x, then y, then z [rad]
+    Vec3 position = Vec3::Zero();  ///< origin of the tracker's frame S, in W [m]
+    Vec3 rotation = Vec3::Zero();  ///< rotation of S about W's axes x, then y, then z [rad]
     Vec3 eyes = Vec3::Zero();      ///< p_TE [m]
     Vec3 along = Vec3::UnitX();    ///< a_T, of any length
     std::string library;           ///< path of liblsl; empty: found by the system

@@ -41,10 +41,10 @@ struct Channel {
     std::string unit;
 };
 
-/// Outlets' information about the session.
+/// Information about the session, for outlets.
 struct About {
     std::string session;  ///< name of its folder
-    double rate = 0;      ///< of samples [Hz]
+    double rate = 0;      ///< rate of samples [Hz]
     std::vector<Channel> channels;
 };
 

@@ -99,8 +99,8 @@ std::vector<std::string> Station::finish() {
     lines_.clear();
     if (const int64_t lost = lost_.exchange(0); lost > 0)
         failures_.push_back(
-            fmt::format("{} ticks did not reach the outlets, which were too slow "
-                        "for them: their event codes are in events.csv.",
+            fmt::format("{} ticks did not reach the outlets, which were too slow; the event codes "
+                        "of these ticks are in events.csv.",
                         lost));
     return failures_;
 }

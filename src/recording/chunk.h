@@ -4,7 +4,7 @@
 //   chunk   u32 kind, u32 bytes of payload, u64 session, u32 number, u32 CRC-32, payload
 //
 // The kind is spelt out (HEAD, PACK, DATA, DONE). `session` is the FNV-1a hash of the head's
-// payload, and chunks are numbered from the head, 0: this is how a chunk of another session, or one
+// payload, and chunks are numbered from 0, the head. This is how a chunk of another session, or one
 // that is out of place, is recognised. The CRC-32 covers the header before it and the payload.
 //
 // Version 2 had no packed chunks. Version 1 had neither session nor number: u32 kind, u32 bytes of

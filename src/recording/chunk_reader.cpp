@@ -13,7 +13,8 @@ namespace {
 /// The file is searched for kinds in blocks of this many bytes.
 constexpr int64_t kBlock = 1 << 16;
 /// Bytes that look like a chunk but are not one may have to be read again, starting at each of
-/// them. A file that requires more such reading than this was made to keep its reader busy [bytes].
+/// them. A file that requires more such reading than this must have been made to keep its reader
+/// busy [bytes].
 constexpr int64_t kMostWasted = int64_t{1} << 30;
 constexpr std::array kKinds{kHead, kData, kPacked, kDone};
 
@@ -62,7 +63,7 @@ std::vector<ChunkPlace> ChunkReader::places() const {
     // bytes that are written meanwhile are ignored
     while (place.at < file_.size() && is_next(place, header)) {
         const int64_t end = place.at + header_size() + header.size;
-        if (end > file_.size()) return out;  // it was not written completely
+        if (end > file_.size()) return out;  // the chunk was not written completely
         if (has_frames(header.kind)) out.push_back(place);
         place = {end, place.number + 1};
     }
@@ -136,7 +137,7 @@ bool ChunkReader::read_at(int64_t at, ChunkHeader& out) {
 bool ChunkReader::find(int64_t from, Found& found, ChunkHeader& header) {
     for (int64_t at = from; at >= 0; at = find_kind(at + 1)) {
         if (!read_at(at, header)) {
-            wasted_ += kBlock;  // the block is read again from there
+            wasted_ += kBlock;  // its block is read again from at + 1
             continue;
         }
         found = {at, at + header_size() + header.size, at - from, header.number, Chunk::Place::own};

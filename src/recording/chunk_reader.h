@@ -1,5 +1,6 @@
-// Reads the chunks of a log in the order in which they were written, whatever happened to the file
-// since: it may have damaged bytes, and chunks may be foreign, duplicated, missing or out of place.
+// Reads the chunks of a log in the order in which they were written, whatever has happened to the
+// file since: it may contain damaged bytes, and chunks may be foreign, duplicated, missing or out
+// of place.
 //
 // The file is read from its beginning as long as each chunk is the expected one. At the first
 // unexpected chunk, the rest of the file is searched once, and then read in the order of the
@@ -25,17 +26,17 @@ struct ChunkPlace {
 /// A whole chunk.
 struct Chunk {
     enum class Place {
-        own,        ///< the next one that exists
-        moved,      ///< the next one that exists, but stored after later ones
-        doubled,    ///< a chunk with its number was read before
-        foreign,    ///< it belongs to another session
-        after_end,  ///< it lies after the end mark
+        own,        ///< the next existing chunk
+        moved,      ///< the next existing chunk, but stored after later ones
+        doubled,    ///< a chunk with the same number was read before
+        foreign,    ///< the chunk belongs to another session
+        after_end,  ///< the chunk lies after the end mark
     };
     uint32_t kind = 0;
     Place place = Place::own;
     ChunkPlace in_file;
-    int64_t bytes = 0;    ///< including its header
-    int64_t damaged = 0;  ///< bytes before it in the file that belong to no whole chunk
+    int64_t bytes = 0;    ///< including the header
+    int64_t damaged = 0;  ///< bytes before the chunk in the file that belong to no whole chunk
     int64_t missing = 0;  ///< number of chunks missing between the previous one and this one
     std::vector<std::byte> payload;
 };

@@ -67,7 +67,7 @@ class Writer {
 }  // namespace
 
 size_t most_bytes(const Layout& layout, size_t contacts) {
-    // measured, on a frame with everything in it
+    // measured on a frame that contains everything
     Frame frame;
     frame.fingers.resize(layout.fingers);
     frame.turns.resize(layout.turns);

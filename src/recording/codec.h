@@ -1,5 +1,6 @@
 // Encodes frames as bytes, field by field in the order of Frame::visit(), little-endian. A body is
-// written only when it has changed: decoding over the previous frame keeps the others (decoder.h).
+// written only when it has changed: decoding over the previous frame keeps the other bodies
+// (decoder.h).
 #pragma once
 
 #include <cstddef>

@@ -12,7 +12,7 @@ namespace dihaptic::recording {
 struct Convergence {
     int ticks = 0;        ///< number of ticks recorded
     int missed = 0;       ///< number of ticks in which the solver missed its tolerance
-    int longest_run = 0;  ///< largest number of consecutive ones
+    int longest_run = 0;  ///< longest run of such ticks
     /// Largest Frame::solver_held_residual, and the time of its tick [s]; none: it was not
     /// recorded.
     std::optional<double> held_residual, held_residual_time;
@@ -26,7 +26,7 @@ struct Convergence {
         v("held_residual_time", held_residual_time, Field::of(Quantity::time));
     }
 
-    /// A sentence with these figures, also if no tick missed.
+    /// A sentence with these figures, even if the tolerance was never missed.
     std::string describe() const;
 };
 

@@ -39,7 +39,7 @@ std::string first_word(const std::string& line) {
 
 /// A field of a Frame, or of an item of one of its lists.
 struct Member {
-    std::string line;  ///< its line in the schema
+    std::string line;  ///< the field's line in the schema
     size_t at = 0;     ///< offset in the Frame or the item
     bool recorded = false;
 };
@@ -117,7 +117,7 @@ class FrameDecoder::Members {
     }
 
     const Frame frame_;
-    const std::byte* begin_ = bytes(frame_);  // of the Frame or the item that is being visited
+    const std::byte* begin_ = bytes(frame_);  // start of the Frame or item that is being visited
     std::vector<Member>* into_ = &fields;
 };
 

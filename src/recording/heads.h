@@ -15,8 +15,8 @@ struct HeadSeen {
     int64_t tick = 0;           ///< the tick shown
     double time = 0;            ///< predicted session time when its light appears [s]
     std::array<double, 3> p{};  ///< between the eyes, in the world [m]
-    std::array<double, 4> R{};  ///< quaternion, w first: in a headset x is right, y up, z backward
-                                ///< of the head; for a screen, of the tracked body
+    std::array<double, 4> R{};  ///< quaternion, w first. The axes are the head's in a headset (x is
+                                ///< right, y up, z backward); for a screen, the tracked body's
     bool tracked = false;       ///< measured; otherwise guessed, or the last one seen
 };
 

@@ -13,7 +13,7 @@ namespace dihaptic::recording {
 
 /// A sound that was heard.
 struct Hearing {
-    int64_t tick = -1;  ///< tick that requested it
+    int64_t tick = -1;  ///< tick that requested the sound
     std::string sound;
     double asked = kUnmeasured;  ///< the tick's session time [s]
     double heard = kUnmeasured;  ///< session time at which its first sample was heard [s]

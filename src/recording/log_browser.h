@@ -34,12 +34,12 @@ class LogBrowser {
     RawLogReader reader_;
     RawLogReader scout_;  // reads the times of chunks
     std::vector<ChunkPlace> chunks_;
-    std::vector<double> times_;  // of the chunks' first frames; NaN if not yet known [s]
+    std::vector<double> times_;  // times of the chunks' first frames; NaN if not yet known [s]
     double begin_ = 0;
     double end_ = 0;
     size_t chunk_ = 0;                     // the chunk that reader_ reads next
     frame::Frame now_;                     // the last frame that at() returned
-    const frame::Frame* ahead_ = nullptr;  // the frame after it; null: there is none
+    const frame::Frame* ahead_ = nullptr;  // the frame after now_; null if there is none
 };
 
 }  // namespace dihaptic::recording

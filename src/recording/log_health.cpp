@@ -113,7 +113,7 @@ void describe_end(std::vector<std::string>& out, const LogHealth& health, int64_
         const std::string plan = planned > 0 ? fmt::format(" of {:.3f} s planned", planned) : "";
         out.push_back(
             fmt::format("the log ends without its end mark, at {:.3f} s{}: all later data are lost "
-                        "(when the program was killed, at most 0.1 s of the session)",
+                        "(if the program was killed, at most 0.1 s of the session)",
                         end, plan));
     } else if (!health.complete) {
         out.push_back("the log ends without its end mark");

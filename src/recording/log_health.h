@@ -14,10 +14,10 @@ namespace dihaptic::recording {
 struct Gap {
     int64_t first = 0;  ///< tick
     int64_t ticks = 0;
-    Time before{0};             ///< time of the last tick before it, or of the session's start
-    Time after{0};              ///< time of the first tick after
+    Time before{0};             ///< time of the last tick before the gap, or of the session's start
+    Time after{0};              ///< time of the first tick after the gap
     int64_t damaged_bytes = 0;  ///< damaged bytes of the log in the gap
-    int64_t chunks = 0;         ///< chunks missing in the gap; both 0: the ticks were never written
+    int64_t chunks = 0;         ///< missing chunks; if both are 0, the ticks were never written
 };
 
 /// Data in a log that are not the next part of its session.

@@ -49,7 +49,7 @@ struct MovedBy {
     }
 };
 
-/// The columns `simulated` and `moved_by`, which are last in each table of people.
+/// The columns `simulated` and `moved_by`, which come last in each table about people.
 extern const std::array<Table::Column, 2> kMovedByColumns;
 
 /// Adds these columns to the table, with the same values in all rows.

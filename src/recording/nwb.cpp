@@ -326,7 +326,7 @@ void write_dynamic_table(hid_t parent, const std::string& name, const Table& tab
         if (!taken.insert(column.name).second) {
             throw Error(fmt::format("the table of {} cannot have a column '{}': the name is taken",
                                     name, column.name),
-                        "Give what has this name in the experiment another one.");
+                        "Rename whatever has this name in the experiment.");
         }
         names.push_back(column.name);
     }
@@ -432,7 +432,7 @@ void write_file(const std::string& name, const std::string& session, RawLogReade
                             "The phases of each trial.");
         write_dynamic_table(
             intervals, "events", content.events, "TimeIntervals", "core",
-            "Events, and when they were seen: moments, which stop when they start.");
+            "Events, and when they were seen. Each stops at the moment when it starts.");
         const Id scratch = create_group(file, "scratch");
         write_dynamic_table(scratch, "settings", content.settings, "DynamicTable", "hdmf-common",
                             "Every setting of the session, with its origin.");
@@ -484,7 +484,7 @@ void write_nwb(const SessionFolder& folder, const NwbContent& content,
 }
 
 int64_t ticks_in_nwb(const SessionFolder& folder) {
-    std::error_code unreadable;  // HDF5 would wait for a pipe
+    std::error_code unreadable;  // checked because HDF5 would wait for a pipe
     if (!std::filesystem::is_regular_file(folder.nwb(), unreadable)) return -1;
     return hdf5::rows_of(folder.nwb(), "acquisition/status/data");
 }

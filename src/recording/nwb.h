@@ -7,7 +7,7 @@
 //   scratch/settings                   settings, each with its origin
 //   scratch/items                      names of fingers, bodies and joints, in order
 //
-// The schema is not included (/specifications): readers use their own copy of that version.
+// The schema (/specifications) is not included: readers use their own copy of the version stated.
 #pragma once
 
 #include <array>
@@ -21,10 +21,10 @@ namespace dihaptic::recording {
 /// The content of the file besides the frames.
 struct NwbContent {
     SessionInfo info;
-    Table trials;    ///< columns start_time and stop_time first
-    Table phases;    ///< columns start_time and stop_time first
-    Table events;    ///< columns start_time and stop_time first
-    Table settings;  ///< name, value, origin
+    Table trials;    ///< its first columns are start_time and stop_time
+    Table phases;    ///< its first columns are start_time and stop_time
+    Table events;    ///< its first columns are start_time and stop_time
+    Table settings;  ///< columns name, value and origin
 };
 
 /// Names that a column of an NWB table cannot have: those of the table's other members.

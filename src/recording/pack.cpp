@@ -68,13 +68,13 @@ std::optional<std::span<const std::byte>> Unpacker::unpack(std::span<const std::
 bool Unpacker::restore(std::span<const std::byte> blocks) {
     records_.clear();
     while (!blocks.empty()) {
-        uint32_t head[2];  // records, bytes of each
+        uint32_t head[2];  // number of records, and bytes of each
         if (blocks.size() < sizeof(head)) return false;
         std::memcpy(head, blocks.data(), sizeof(head));
         blocks = blocks.subspan(sizeof(head));
         const size_t records = head[0];
         const size_t bytes = head[1];
-        // Empty records could claim to be any number.
+        // A block could claim any number of empty records.
         if (records == 0 || bytes == 0 || blocks.size() / bytes < records) return false;
         const size_t first = records_.size();
         const size_t stride = sizeof(uint32_t) + bytes;

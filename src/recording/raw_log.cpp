@@ -85,7 +85,7 @@ RawLogWriter::~RawLogWriter() {
     try {
         flush();
     } catch (const Error&) {
-        // the disk is full: flush() has already reported it to a caller who could act
+        // the disk is full: flush() has already reported it to a caller that could act on it
     }
 }
 
@@ -221,7 +221,7 @@ void RawLogReader::note_end() {
     int64_t wanted = 0;
     health_.unfinished = chunks_.tail_is_unfinished(wanted);
     health_.tail_bytes = bytes;
-    health_.tail_ticks = ticks_in(wanted > 0 ? wanted : bytes);  // as many as it was meant to have
+    health_.tail_ticks = ticks_in(wanted > 0 ? wanted : bytes);  // by its intended size, if known
 }
 
 int64_t RawLogReader::ticks_in(int64_t bytes) const {
@@ -244,7 +244,7 @@ void RawLogReader::note_frame() {
     const Time period = from_seconds(head_.tick);
     const Time last = health_.frames > 0 ? health_.last_time : -period;
     const int64_t missing = frame_.sequence - health_.last_tick - 1;
-    // devices that set the pace have their own period, so whole ticks are counted
+    // devices that set the pace have their own period, so the time is rounded to whole ticks
     const int64_t periods = (frame_.time - last + period / 2) / period;
     health_.left_out += std::max<int64_t>(0, periods - missing - 1);
     if (missing > 0) {

@@ -1,14 +1,15 @@
 // Writes and reads raw.log, the record of a session while it runs. It is append-only, in chunks
-// with a checksum, their session and their number (chunk.h), so that everything written before a
-// crash can be read afterwards, and nothing else is mistaken for the session's data.
+// that carry a checksum, their session and their number (chunk.h), so that everything written
+// before a crash can be read afterwards, and nothing else is mistaken for the session's data.
 //
 //   kinds   head: YAML (layout, tick, names, setup, schema)   first chunk
 //           data: records, each u32 length and a frame (codec.h, schema.h)
-//           pack: such records, packed (pack.h); written today
+//           pack: such records, packed (pack.h); the kind written today
 //           done: i64 number of frames                   last chunk of a session that ended
 //
 // A damaged chunk is skipped: the reader continues with the next one. The first frame of a chunk
-// that was written in place has all bodies; values of bodies that are unknown after a gap are NaN.
+// that was written in place contains all bodies; values of bodies that are unknown after a gap are
+// NaN.
 //
 // The log contains only the session's results, so that the same session gives the same file. On the
 // real clock no two sessions are the same, and the head's identity is random.

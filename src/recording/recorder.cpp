@@ -59,7 +59,7 @@ void Recorder::record(const frame::Frame& frame) {
         log_.add(bytes);
     }
     if (!taken) dropped_.fetch_add(1, std::memory_order_relaxed);
-    whole_next_ = !taken;  // the next one must not build on a frame that is missing
+    whole_next_ = !taken;  // the next frame must not build on a missing one
     if (whole) last_whole_ = frame.time;
 }
 

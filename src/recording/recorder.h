@@ -18,8 +18,8 @@ namespace dihaptic::recording {
 enum class Writing { in_place, in_thread };
 
 /// A chunk is packed and passed to the operating system this often, so a crash can lose little more
-/// than that. At the same interval a frame has all bodies, changed or not, so that the data after a
-/// damaged chunk can be read.
+/// than this interval. Once per interval, a frame contains all bodies, changed or not, so that the
+/// data after a damaged chunk can be read.
 constexpr Time kFlushEvery = std::chrono::milliseconds(50);
 /// How often the thread empties the ring.
 constexpr Time kDrainEvery = std::chrono::milliseconds(5);

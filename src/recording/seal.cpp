@@ -23,7 +23,7 @@ constexpr std::string_view kGiven[] = {"procedures.csv", "trials-before.csv", "m
 /// Every session has this table, but versions before 0.3 did not seal it.
 constexpr std::string_view kSealedLater = "settings.csv";
 
-/// Number of rows of a table in a CSV file, without its header; text in quotes may have several
+/// Number of rows of a table in a CSV file, without its header; text in quotes may span several
 /// lines.
 int rows_of(std::string_view csv) {
     int lines = 0;

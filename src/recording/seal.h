@@ -27,10 +27,10 @@ std::vector<std::string> tables_from_log();
 /// The sealed tables that were made before the first tick, or while the session ran.
 std::vector<std::string> other_tables();
 
-/// Seals the current state of a session's tables, and of its session.nwb, which readers of that
-/// file compare: the program itself reads raw.log instead. Tables that were made before its first
-/// tick or while it ran, and that are already in `info.tables`, keep their seal, because they
-/// cannot be made again.
+/// Seals the current state of a session's tables and of its session.nwb. The latter's seal is for
+/// those who read that file: the program itself reads raw.log instead. Tables that were made before
+/// the session's first tick or while it ran, and that are already in `info.tables`, keep their
+/// seal, because they cannot be made again.
 void seal(const SessionFolder& folder, SessionInfo& info);
 
 /// Forgets the seal of a table that was rebuilt although raw.log does not contain it; seal() then

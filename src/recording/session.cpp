@@ -235,7 +235,7 @@ void SessionFolder::sync() const {
     for (fs::directory_iterator i(path_, failed), end; !failed && i != end; i.increment(failed)) {
         if (i->is_regular_file(failed)) sync_to_disk(i->path().string());
     }
-    // the folder's name is in the folder above, whose own name may be just as new
+    // the folder's name is stored in its parent folder, whose own name may be just as new
     for (fs::path folder = fs::absolute(path_, failed); !folder.empty() && !failed;
          folder = folder.parent_path()) {
         sync_to_disk(folder.string());
@@ -290,7 +290,7 @@ SessionLock::SessionLock(const SessionFolder& folder)
     // a file system without locks offers nothing to wait for
     if (!descriptor_ || ::flock(descriptor_.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
         return;
-    throw Error({folder.path(), 0}, "", "is in use: another dihaptic records or recovers it",
+    throw Error({folder.path(), 0}, "", "is in use: another dihaptic is recording or recovering it",
                 "Wait until it has ended, or end it.");
 }
 

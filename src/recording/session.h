@@ -1,4 +1,4 @@
-// The folder that holds a session's files. While the session runs, it has:
+// The folder that holds a session's files. While the session runs, it contains:
 //
 //   session.yaml                       participant, time, inputs; state: running
 //   scene.yaml rig.yaml settings.yaml  frozen inputs, every default resolved
@@ -43,7 +43,7 @@ struct Participant {
     }
 };
 
-/// What a study asks of its participants besides age, sex and handedness.
+/// Something that a study asks its participants besides age, sex and handedness.
 struct Fact {
     std::string name;
     std::string value;
@@ -59,7 +59,7 @@ struct Fact {
 struct InStudy {
     std::string study;        ///< title
     int version = 0;          ///< of the study's files
-    std::string group;        ///< or the code that conceals it
+    std::string group;        ///< name, or the code that conceals it
     int number = 0;           ///< of the participant in the group
     std::string session;      ///< name
     std::string condition;    ///< empty: the session has none
@@ -94,7 +94,7 @@ struct TableSeal {
 struct SessionInfo : Setup {
     SessionState state = SessionState::running;
     int ticks = 0;             ///< number of ticks, once the session has ended; 0: not known
-    bool interrupted = false;  ///< the session ended before its time
+    bool interrupted = false;  ///< the session ended early
     std::string program;       ///< name and version
     std::string started;       ///< ISO 8601 with offset
     std::string command;       ///< as typed
@@ -150,7 +150,7 @@ class SessionFolder {
     /// Reads the intact part of session.yaml and completes it from `setup`, the log's head; warns
     /// of the losses. Throws Error when the log belongs to another session.
     SessionInfo read_info(const Setup& setup, Diagnostics& diagnostics) const;
-    /// Throws Error when the log with this head belongs to another session than session.yaml.
+    /// Throws Error when the log with this head belongs to a different session from session.yaml.
     void check_log(const SessionInfo& info, const Setup& setup) const;
     /// The session's seed as a number. Throws Error when it is not a whole number.
     uint64_t seed_of(const SessionInfo& info) const;
@@ -171,8 +171,8 @@ class SessionFolder {
     std::string path_;
 };
 
-/// A lock held by the program that writes a session's files; a second program is refused. The lock
-/// ends with its program, however the program ends.
+/// A lock held by the program that writes a session's files; a second program cannot obtain it. The
+/// lock ends with its program, however the program ends.
 class SessionLock {
   public:
     /// Throws Error when another program holds the lock.

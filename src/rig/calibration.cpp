@@ -75,7 +75,7 @@ void check_movement(const CalibrationInput& input, const CalibrationSolver& solv
     const double least = Eigen::SelfAdjointEigenSolver<Mat3>(turned).eigenvalues()[0];
     if (least < kLeastTurned) {
         throw Error("the link pointed nearly the same way all the time, or stayed in one plane",
-                    "Turn it while moving it: along the table to all sides, and upright.");
+                    "Turn the link while moving it: along the table to all sides, and upright.");
     }
 }
 
@@ -129,12 +129,11 @@ void check_link(const CalibrationSolution& solution, double slips) {
         fmt::format("the endpoints were not held by one link: its length varied by {:.1f} mm, and "
                     "{:.0f} % of the samples were slips",
                     solution.link_spread * 1e3, slips * 100),
-        "Fasten it to both endpoints, and move them again. If it was fastened: do the rig file's "
-        "position, "
-        "rotation, backend and links fit these devices?");
+        "Fasten the link to both endpoints, and move them again. If it was fastened, check that "
+        "the rig file's position, rotation, backend and links fit these devices.");
 }
 
-/// The samples used for fitting a fold, 1 each; the others are held out.
+/// For each sample: 1 if it is used for fitting a fold, 0 if it is held out.
 std::vector<uint8_t> without(size_t count, size_t fold, size_t stretches) {
     std::vector<uint8_t> use(count, 1);
     for (size_t k = 0; k < count; ++k) use[k] = k * stretches / count % kFolds != fold;
@@ -294,7 +293,7 @@ CalibrationResult calibrate(const CalibrationInput& input) {
     if (input.devices.size() > 1) {
         check_movement(input, solver);
     } else if (input.jig_samples.empty()) {
-        throw Error("a single device is calibrated with a jig, but none was touched",
+        throw Error("a single device is calibrated with a jig, but no jig was touched",
                     "Give the rig file a jig, or two devices.");
     }
     if (!input.jig_samples.empty()) check_touches(input);
@@ -316,7 +315,7 @@ CalibrationResult calibrate(const CalibrationInput& input) {
     if (all.jig_spread > kMostSpread) {
         throw Error(fmt::format("the endpoints that touched the jig were {:.1f} mm from its points",
                                 all.jig_spread * 1e3),
-                    "Do the rig file's jig, positions and rotations agree with reality?");
+                    "Check that the rig file's jig, positions and rotations agree with reality.");
     }
     calibration.link_length = all.length;
     calibration.link_rms = rms(held_out.along_link);

@@ -14,8 +14,8 @@ namespace dihaptic::rig {
 struct DeviceCalibration {
     std::string finger;
     std::string serial;         ///< serial number of the device; "" if the device reports none
-    Vec3 shift = Vec3::Zero();  ///< of the true D in the rig file's D [m]
-    Vec3 turn = Vec3::Zero();  ///< of the true D in the rig file's D, about x, then y, then z [rad]
+    Vec3 shift = Vec3::Zero();  ///< shift of the true D in the rig file's D [m]
+    Vec3 turn = Vec3::Zero();   ///< its rotation, about x, then y, then z [rad]
     /// True minus reported joint angles [rad]; unset: stretch and skew apply instead.
     std::optional<Vec3> joint_offset;
     Vec3 stretch = Vec3::Zero();  ///< along x, y, z
@@ -84,7 +84,7 @@ struct CalibrationInput {
     struct Device {
         std::string finger;
         std::string serial;
-        Pose X_WD;  ///< as in the rig file
+        Pose X_WD;  ///< pose as in the rig file
         std::optional<model::PhantomLinks> arm;
     };
     /// The endpoints of two devices, joined. Samples are in order of time.

@@ -102,7 +102,7 @@ class CalibrationWay {
     GuidedSteps steps_;
 };
 
-/// Two endpoints whose distance when held together is in the calibration.
+/// Two endpoints for which the calibration gives the distance when they are held together.
 struct Told {
     size_t first;   // finger
     size_t other;   // finger

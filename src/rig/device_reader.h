@@ -12,7 +12,7 @@ namespace dihaptic::rig {
 
 class DeviceReader {
   public:
-    /// Time between readings of devices without pacing.
+    /// Time between readings of devices that do not pace.
     static constexpr Time kTick = std::chrono::milliseconds(1);
 
     /// `fingers`: finger that holds each device, for errors.

@@ -32,8 +32,8 @@ Problem refusal(const Place& place, const std::string& path) {
                         "that you did not name yourself",
                         path),
             remedy +
-                "name the rig yourself (not possible for a resumed session): --rig, or Rig in "
-                "the window."};
+                "name the rig yourself, with --rig or under Rig in the window (not possible for a "
+                "resumed session)."};
 }
 
 void look_at(const Place& place, const std::string& path, std::vector<Problem>& out) {

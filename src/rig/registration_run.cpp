@@ -12,7 +12,7 @@ namespace dihaptic::rig {
 namespace {
 
 constexpr int kCrossSamples = 25;           // samples per cross: half a second
-constexpr double kMostMovedOnCross = 2e-3;  // of a finger at rest on a cross [m]
+constexpr double kMostMovedOnCross = 2e-3;  // movement of a finger at rest on a cross [m]
 constexpr double kMoveToCross = 0.8;        // time of a simulated finger from cross to cross [s]
 constexpr double kRest = 0.7;               // rest on each cross [s]
 

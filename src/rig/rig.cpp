@@ -94,7 +94,8 @@ void check(const Rig& rig, Diagnostics& diagnostics) {
     check_head(rig, diagnostics);
 }
 
-/// Reads a file that a rig file names by a key; false, with `remedy`, if it cannot be read.
+/// Reads a file that a rig file names under a key. If it cannot be read, reports this with `remedy`
+/// and returns false.
 template <class File>
 bool read_named(const std::string& file, const Place& place, const char* key,
                 const std::string& named, const char* remedy, File& out, Diagnostics& diagnostics) {
@@ -152,7 +153,7 @@ void read_calibration(Rig& rig, const std::string& file, Diagnostics& diagnostic
     rig.calibrated = calibration;
 }
 
-/// Moves all positions so that the world's origin is that of the file.
+/// Moves all positions so that the file's `origin` becomes the world's origin.
 void place_world(Rig& rig) {
     for (Device& device : rig.devices) device.position -= rig.origin;
     for (JigPoint& point : rig.jig) point.position -= rig.origin;
@@ -295,7 +296,8 @@ void check_jig(const Rig& rig) {
     std::vector<Vec3> points;
     for (const JigPoint& point : rig.jig) points.push_back(point.position);
     if (points.empty()) {
-        throw Error(rig.place, "jig", "a single device is calibrated with a jig, but there is none",
+        throw Error(rig.place, "jig",
+                    "a single device is calibrated with a jig, but the rig has none",
                     "Give the rig file a jig, or two devices.");
     }
     if (across(points) >= kLeastJig) return;

@@ -17,7 +17,7 @@ namespace dihaptic::rig {
 struct Device {
     std::string finger;
     std::string backend;
-    Vec3 position = Vec3::Zero();  ///< of D's origin in the world [m]
+    Vec3 position = Vec3::Zero();  ///< position of D's origin in the world [m]
     Vec3 rotation = Vec3::Zero();  ///< about the world's axes x, then y, then z [rad]
     /// Factor from the hand's to the world's positions, about D's origin; forces on the hand are
     /// smaller by this factor (corrected_devices.h).
@@ -58,8 +58,8 @@ struct JigPoint {
     }
 };
 
-/// The box in which hands are kept, if the rig file gives one: along the world's axes, instead of
-/// each device's own workspace.
+/// The box in which hands are kept, if the rig file gives one. Its edges are along the world's
+/// axes; it replaces each device's own workspace.
 struct Wall {
     Vec3 centre = Vec3::Zero();  ///< [m]
     Vec3 size = Vec3::Zero();    ///< [m]
@@ -86,12 +86,12 @@ enum class NamedBy { a_file, the_operator };
 /// read_rig() subtracts `origin`, so it returns positions in the world.
 struct Rig {
     std::string title;
-    Vec3 origin = Vec3::Zero();  ///< of the world, in the file's frame [m]
+    Vec3 origin = Vec3::Zero();  ///< origin of the world, in the file's frame [m]
     std::vector<Device> devices;
     std::optional<Wall> wall;
     std::vector<outlets::OutletConfig> outlets;
-    std::string
-        calibration;  ///< the calibration file's path, from the rig file's folder; empty: none
+    std::string calibration;  ///< the calibration file's path, relative to the rig file's folder;
+                              ///< empty: none
     std::vector<JigPoint> jig;
     std::vector<display::Display> displays;
     std::optional<outlets::TrackedHead> head;
@@ -188,7 +188,7 @@ std::unique_ptr<devices::DeviceGroup> make_devices(
     const Rig& rig, const std::vector<std::string>& fingers, const devices::Context& context,
     const std::optional<host::Hosting>& hosting = {});
 /// Claims the real devices that make_devices() made for this process, before it activates them; a
-/// device host does this itself. Throws Error if another program has one.
+/// device host does this itself. Throws Error if another program holds one of them.
 std::vector<devices::DeviceClaim> claim_devices(const Rig& rig,
                                                 const std::vector<std::string>& fingers,
                                                 const devices::DeviceGroup& devices);

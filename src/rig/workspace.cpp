@@ -12,8 +12,8 @@ namespace {
 /// Approximate number of the grid's points: fixed, so that the time is about the same for any rig.
 constexpr double kPoints = 8e6;
 constexpr double kFinest = 1e-3;  // least spacing of the grid [m]
-/// The largest box is searched among cells of several points a side: at most this many cells along
-/// an axis.
+/// The largest box is sought among cells that are several points wide: at most this many cells
+/// along an axis.
 constexpr int kMostCells = 64;
 
 /// A hand without motion, because simulated devices need a hand.
@@ -148,8 +148,8 @@ Rectangle largest_under(const std::vector<int>& heights, std::vector<int>& stack
     return best;
 }
 
-/// The cells of `side` steps a side with all points inside; neighbours share the points
-/// between them.
+/// The cells whose sides are `side` steps long and whose points are all inside; neighbours share
+/// the points between them.
 Grid full_cells(const Grid& grid, int side) {
     Grid cells(((grid.size - Eigen::Vector3i::Ones()) / side).cwiseMax(0));
     const Eigen::Vector3i n = cells.size;

@@ -41,12 +41,12 @@ struct Shadow {
 };
 
 struct Workspace {
-    double spacing = 0;                              ///< of the grid's points [m]
+    double spacing = 0;                              ///< spacing of the grid's points [m]
     Vec3 first = Vec3::Zero();                       ///< first point of the grid, in the world [m]
     Eigen::Vector3i size = Eigen::Vector3i::Zero();  ///< number of points along x, y, z
-    std::vector<double> volumes;                     ///< of each device's reach [m^3]
+    std::vector<double> volumes;                     ///< volume of each device's reach [m^3]
     double shared = 0;                               ///< volume of the intersection [m^3]
-    std::vector<Shadow> shadows;                     ///< of each device's reach
+    std::vector<Shadow> shadows;                     ///< shadow of each device's reach
     Shadow shared_shadow;
     /// Largest box along the world's axes within the intersection [m].
     Eigen::AlignedBox3d box;
@@ -66,7 +66,7 @@ Workspace find_workspace(const std::vector<Reach>& reaches,
 
 /// A proposal for the world's origin and the wall in a non-empty workspace.
 struct Placement {
-    Vec3 origin;  ///< of the world: kUnderTable above the middle of the box's floor [m]
+    Vec3 origin;  ///< origin of the world: kUnderTable above the middle of the box's floor [m]
     Wall wall;    ///< the largest box
 };
 Placement propose_placement(const Workspace& workspace);

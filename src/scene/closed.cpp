@@ -54,8 +54,8 @@ Sides sides_of(const Mesh& mesh) {
 }
 
 /// The pairs of faces that bound the same wedge of solid at an edge of more than two faces: in
-/// order of angle about the edge, each face that starts a wedge, with the first unpaired one that
-/// ends one.
+/// order of angle about the edge, each face that starts a wedge, with the first unpaired face that
+/// ends a wedge.
 std::vector<std::pair<EdgeSide, EdgeSide>> wedges(const Mesh& mesh, const Edge& edge,
                                                   std::vector<EdgeSide> sides) {
     const Vec3 along = (corner(mesh, edge.second) - corner(mesh, edge.first)).normalized();
@@ -185,7 +185,7 @@ bool is_in(const Mesh& mesh, const Shell& inner, const Nested& small, const Shel
     for (size_t i = 0; i < inner.faces.size(); i += step) {
         const std::vector<int>& f = mesh.faces[inner.faces[i]];
         const Vec3 middle = (corner(mesh, f[0]) + corner(mesh, f[1]) + corner(mesh, f[2])) / 3;
-        // 1/8 at the corner of a box that touches from inside
+        // the winding number is 1/8 at the corner of a box that touches from inside
         for (const Vec3& p : {corner(mesh, f[0]), middle}) {
             if (std::abs(winding(mesh, outer, p)) < 0.01) return false;
         }
@@ -307,8 +307,8 @@ double distance(const Mesh& mesh, int point, const Edge& edge) {
     return (p - share * along).norm();
 }
 
-/// The corner nearest to an edge, not one of its ends, if the two were probably meant to meet;
-/// "" if there is none.
+/// A corner near an edge of which it is not an end, in words, if the two were probably meant to
+/// meet; "" if there is none.
 std::string near_miss(const Mesh& mesh, const std::map<Edge, int>& open, double rounding,
                       const MeshName& name) {
     std::set<int> ends;
@@ -346,7 +346,7 @@ Error not_closed(const Mesh& mesh, const Mesh& best, double rounding, const Mesh
                     name.place(corner(best, first.second)), fault_at(best, first), miss),
         miss.empty() ? "Close its holes, orient its faces alike and delete duplicate "
                        "faces in a mesh editor, or leave out 'concave'."
-                     : "Merge its close corners in a mesh editor, or leave out 'concave'.");
+                     : "Merge nearby corners in a mesh editor, or leave out 'concave'.");
 }
 
 }  // namespace
@@ -374,7 +374,7 @@ ClosedMesh closed(const Mesh& mesh, const MeshName& name, Diagnostics& diagnosti
                 name.asked_at, "file",
                 fmt::format("the mesh {} has corners up to {:.2g} {} apart that are merged",
                             name.file, better.largest / name.unit, name.word),
-                "Merge its close corners in a mesh editor to avoid this warning.");
+                "Merge these corners in a mesh editor to avoid this warning.");
         }
         out.mesh = std::move(better.mesh);
     } else if (!open_edges(out.mesh).empty()) {

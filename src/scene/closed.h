@@ -25,7 +25,7 @@ inline bool is_same_size(double a, double b) {
 struct MeshName {
     std::string file;
     Place asked_at;         ///< where the file's name was written
-    double unit = 1;        ///< of the file's coordinates [m]
+    double unit = 1;        ///< unit of the file's coordinates [m]
     std::string_view word;  ///< the unit's name
 
     /// A point of the mesh, in the file's unit.

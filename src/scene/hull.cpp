@@ -30,7 +30,7 @@ double area(const Hull& hull) {
 }
 
 /// Bullet's hull rounds coordinates to a ten-thousandth of their extent, and merges corners, or
-/// flips faces, that are closer together.
+/// flips faces, that are closer together than this.
 Hull quick_hull(std::span<const Vec3> points) {
     Hull hull;
     btConvexHullComputer computer;

@@ -19,9 +19,9 @@ struct Joint {
     JointKind kind = JointKind::hinge;
     std::vector<std::string> between;  ///< two bodies, or one joined to the world
     std::string in;                    ///< frame in a file; complete() converts all to the world's
-    Vec3 position = Vec3::Zero();      ///< of the joint's point at the start [m]
+    Vec3 position = Vec3::Zero();      ///< position of the joint's point at the start [m]
     Vec3 axis = Vec3::UnitZ();         ///< at the start, of any length
-    Vec3 second_axis = Vec3::UnitX();  ///< for a universal joint
+    Vec3 second_axis = Vec3::UnitX();  ///< second axis of a universal joint
     std::optional<Vec3> second_position;  ///< for a distance joint: the second body's point [m]
     /// For the free axis of a hinge or slider, or for a distance joint.
     double stiffness = 0;       ///< [N/m] or [N*m/rad]
@@ -39,7 +39,7 @@ struct Joint {
     Vec3 dampings = Vec3::Zero();          ///< [N*s/m]
     Vec3 turn_dampings = Vec3::Zero();     ///< [N*m*s/rad]
     bool collide = false;
-    bool recorded = true;  ///< and available to tasks by its name
+    bool recorded = true;  ///< whether it is recorded, and available to tasks by its name
     Place place;
 
     const JointKindRow& row() const { return describe(kind); }

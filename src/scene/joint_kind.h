@@ -73,7 +73,8 @@ constexpr const JointKindRow& describe(JointKind kind) noexcept {
     return kJointKindTable[static_cast<size_t>(kind)];
 }
 
-/// The kinds that fit, for messages: "a hinge, a slider or a distance joint". Several have to fit.
+/// The kinds that fit, for messages: "a hinge, a slider or a distance joint". At least two have to
+/// fit.
 inline std::string kinds_that(bool (JointKindRow::*fit)() const,
                               const char* JointKindRow::*word = &JointKindRow::noun,
                               const char* last = " or ") {

@@ -34,7 +34,7 @@ constexpr auto enum_names(Side) {
     return std::array{"-x", "+x", "-y", "+y", "-z", "+z"};
 }
 
-/// A face of a lattice that is glued to a body, or to the world: by links half as long.
+/// A face of a lattice that is glued to a body, or to the world, by links that are half as long.
 struct Glued {
     Side side = Side::x_low;
     std::string to;  ///< body; empty: the world
@@ -49,11 +49,11 @@ struct Glued {
 
 struct Lattice {
     std::string name;
-    Vec3 size = Vec3::Zero();       ///< of the entire lattice [m]
+    Vec3 size = Vec3::Zero();       ///< size of the entire lattice [m]
     Vec3 parts{2, 2, 2};            ///< number of blocks along its x, y and z
-    Vec3 position = Vec3::Zero();   ///< of its centre at the start [m]
+    Vec3 position = Vec3::Zero();   ///< position of its centre at the start [m]
     Vec3 rotation = Vec3::Zero();   ///< about the fixed axes x, then y, then z [rad]
-    std::optional<double> mass;     ///< of the entire lattice [kg]; this or the density
+    std::optional<double> mass;     ///< mass of the entire lattice [kg]; this or the density
     std::optional<double> density;  ///< [kg/m^3]
     double young = 1e5;             ///< E [Pa]
     std::optional<double> shear;    ///< G [Pa]; unset: E / 2

@@ -25,7 +25,7 @@ double extent_of(const Mesh& mesh) {
     return (box.high - box.low).maxCoeff();
 }
 
-/// The seen and the felt shape have similar sizes; otherwise a unit is wrong.
+/// Checks that the seen and the felt shape have similar sizes; otherwise a unit is wrong.
 void check_size(double seen, double felt, const SeenMesh& mesh, Diagnostics& diagnostics) {
     if (felt <= 0 || (seen < 2 * felt && felt < 2 * seen)) return;
     diagnostics.warning(

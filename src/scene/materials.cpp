@@ -47,7 +47,7 @@ int32_t rgb_of(const std::array<double, 3>& shares) {
 
 std::string materials_of(const std::string& file, std::string_view text) {
     std::string name = trimmed(line_of(text, "mtllib "));
-    // programs write paths on the machine on which they ran
+    // programs write paths of the machine on which they ran
     if (const size_t folder = name.find_last_of("/\\"); folder != std::string::npos)
         name.erase(0, folder + 1);
     if (name.empty()) return "";

@@ -19,7 +19,7 @@ std::string materials_beside(const std::string& file);
 
 struct Materials {
     std::map<std::string, int32_t> colours;  ///< diffuse (Kd), by name, as in scene/colour.h
-    std::string checksum;                    ///< of the file, as it was read (base/checksum.h)
+    std::string checksum;                    ///< checksum of the file as it was read
 };
 
 /// Returns no colours and no checksum if the file cannot be read.

@@ -22,8 +22,8 @@ struct Mesh {
     /// OBJ: the file that gave colours or, if the mesh has no colours, the file that it names for
     /// them; "": none.
     std::string materials;
-    std::string checksum;            ///< of the file, as it was read (base/checksum.h)
-    std::string materials_checksum;  ///< of its materials file; empty if this was not read
+    std::string checksum;            ///< checksum of the file as it was read (base/checksum.h)
+    std::string materials_checksum;  ///< checksum of its materials file; "" if that was not read
 };
 
 /// Reads a mesh from an OBJ, STL, PLY or OFF file whose coordinates are in units of `unit` metres,

@@ -133,8 +133,8 @@ struct PlyHead {
     size_t numbers = 0;                          // numbers per vertex
     size_t bytes = 0;                            // bytes per vertex
     std::array<std::optional<size_t>, 3> xyz{};  // positions of x, y and z among the numbers
-    std::array<size_t, 3> xyz_at{};              // and among the bytes
-    int doubles = 0;                             // number of these in double precision
+    std::array<size_t, 3> xyz_at{};              // their positions among the bytes
+    int doubles = 0;                             // number of coordinates in double precision
     std::string format;
     bool has_lists = false;
     size_t end = 0;  // end of the header

@@ -25,7 +25,7 @@ Image read(Image (&reader)(const std::string&), const std::string& file, int few
         throw Error(
             place, "file",
             fmt::format("the picture {} has {} x {} pixels", file, image.width, image.height),
-            fmt::format("Make each edge {} to {} pixels.", fewest, most));
+            fmt::format("Make each edge {} to {} pixels long.", fewest, most));
     return image;
 }
 

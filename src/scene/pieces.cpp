@@ -68,7 +68,7 @@ std::string text_of(const std::vector<Hull>& hulls) {
 /// The content of "piece <count>" lines and vertices.
 struct Parsed {
     std::vector<Hull> hulls;
-    std::optional<Vec3> lost;  ///< a corner in no hull, if possible of a piece that is too thin
+    std::optional<Vec3> lost;  ///< a corner in no hull, if possible one of a piece that is too thin
 };
 
 std::optional<Vec3> lost_of(const std::vector<Vec3>& points, const Hull& hull) {
@@ -175,8 +175,8 @@ std::string text_of(const ClosedMesh& solid) {
 /// The output of dihaptic-decompose.
 struct Cut {
     std::vector<Hull> hulls;       ///< none if the solid cannot be cut
-    double volume = 0;             ///< of the solid [m^3]
-    double inverted = 0;           ///< of the space that a shell encloses the wrong way round [m^3]
+    double volume = 0;             ///< volume of the solid [m^3]
+    double inverted = 0;           ///< volume that a shell encloses the wrong way round [m^3]
     std::optional<Vec3> crossing;  ///< where a shell crosses or touches itself
     std::optional<Vec3> lost;      ///< as in Parsed
 };
@@ -196,7 +196,7 @@ Cut cut_of(const std::string& text) {
             if (!read(in, out.volume) || !read(in, shells)) break;
         } else {
             if (const std::optional<Parsed> first = parse(text.substr(at))) {
-                // in the form in which a file returns them
+                // as they will be when read from a file
                 if (std::optional<Parsed> again = parse(text_of(first->hulls)))
                     out.hulls = std::move(again->hulls);
                 out.lost = first->lost;

@@ -18,7 +18,7 @@ struct ClosedMesh;
 struct MeshName;
 
 struct Pieces {
-    std::vector<Hull> hulls;  ///< in the mesh's frame [m]
+    std::vector<Hull> hulls;  ///< pieces in the mesh's frame [m]
     uint64_t mesh = 0;        ///< fingerprint of the mesh that was cut, in metres
 };
 

@@ -9,7 +9,7 @@
 
 namespace dihaptic::scene {
 
-/// Grey values from 0, black, to 1, white, that repeat in both directions. Between pixels they are
+/// Grey values from 0 (black) to 1 (white) that repeat in both directions. Between pixels they are
 /// a uniform cubic B-spline (de Boor 1978), which is nowhere higher than the brightest pixel, and
 /// whose slope has no jumps.
 class ReliefPicture {
@@ -31,7 +31,8 @@ class ReliefPicture {
     int height() const noexcept { return height_; }
     /// Checksum of its file when it was read (base/checksum.h).
     const std::string& checksum() const noexcept { return checksum_; }
-    /// The relief at a point this many pixels to the right of and above the picture's centre.
+    /// The relief at a point `x` pixels to the right of the picture's centre and `y` pixels above
+    /// it.
     Value at(double x, double y) const noexcept;
     /// The largest rise over a pixel in any direction, sampled four times per pixel along each
     /// edge.

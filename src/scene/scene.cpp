@@ -54,7 +54,7 @@ class Meshes {
     void load(Shape& shape, bool coloured);
 
   private:
-    /// Null if the mesh could not be read, after a report.
+    /// Null, with a report, if the mesh could not be read.
     const Mesh* read(const std::string& file, double unit, const Place& place);
     void load_file(Shape& shape, bool coloured, const std::string& file);
 
@@ -209,7 +209,7 @@ void check_body(const Body& body, Diagnostics& diagnostics) {
     }
 }
 
-/// Reports an excessive number of objects and drops the excess; then returns false.
+/// If there are too many objects, reports this, drops the excess and returns false.
 template <class Thing>
 bool check_count(std::vector<Thing>& things, size_t most, const char* key,
                  Diagnostics& diagnostics) {
@@ -274,7 +274,7 @@ void check_names(const Scene& scene, Diagnostics& diagnostics) {
         }
         if (name.size() > kLongestName) {
             diagnostics.error(place, "name", fmt::format("has {} bytes", name.size()),
-                              fmt::format("Choose one of at most {}.", kLongestName));
+                              fmt::format("Choose a name of at most {} bytes.", kLongestName));
         }
         if (!name.empty() && !names.insert(name).second) {
             diagnostics.error(place, "name", fmt::format("'{}' is used twice", name),
@@ -331,7 +331,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
         }
     } else if (!scene.bodies[static_cast<size_t>(object)].moves_at_all()) {
         diagnostics.error(scene.object_place, "object", fmt::format("'{}' is fixed", scene.object),
-                          "Name a movable body, the subject of summaries.");
+                          "Name a movable body; summaries describe this body.");
     }
 }
 
@@ -420,7 +420,7 @@ void check_axis(const Joint& joint, Diagnostics& diagnostics) {
         diagnostics.error(joint.place, "second_axis", "lies along the first axis",
                           "Set it at an angle to the first axis, ideally a right angle.");
     if (joint.low && joint.high && *joint.low > *joint.high)
-        diagnostics.error(joint.place, "low", "is above high, so that no position is allowed",
+        diagnostics.error(joint.place, "low", "is above 'high', so that no position is allowed",
                           "Exchange the two.");
 }
 
@@ -462,7 +462,7 @@ void check_masses(const Joint& joint, const Scene& scene, Diagnostics& diagnosti
 
 void check_between(const Joint& joint, const Scene& scene, Diagnostics& diagnostics) {
     if (joint.between.empty() || joint.between.size() > 2) {
-        diagnostics.error(joint.place, "between", "must be two bodies, or one",
+        diagnostics.error(joint.place, "between", "must contain one or two bodies",
                           "Write between: [cart, bob], or between: [door] for a joint to the "
                           "world.");
         return;

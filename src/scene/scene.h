@@ -45,11 +45,12 @@ struct Body {
     std::optional<double> density;  ///< [kg/m^3]
     bool fixed = false;             ///< never moves
     bool driven = false;            ///< moves as driven by a task, whatever presses on it
-    Vec3 position = Vec3::Zero();   ///< of B's origin at the start [m]
+    Vec3 position = Vec3::Zero();   ///< position of B's origin at the start [m]
     Vec3 rotation = Vec3::Zero();   ///< at the start, about the fixed axes x, then y, then z [rad]
     double friction = 0.8;          ///< see pair_friction()
     double torsion_radius = 0;  ///< a contact carries a moment about its normal up to friction x
-                                ///< radius x normal force; for a pair, the larger radius counts [m]
+                                ///< radius x normal force; for a pair, the larger radius is used
+                                ///< [m]
     Axes moves =
         Axes::xyz;  ///< world axes along which it may move: z alone is a bead on an upright string
     Axes turns = Axes::xyz;  ///< world axes about which it may turn: none, one, or xyz
@@ -86,7 +87,7 @@ struct Body {
         v("friction", friction,
           Field::number()
               .within(0, kMostFriction)
-              .says("Coefficient of friction; for a pair, the geometric mean counts."));
+              .says("Coefficient of friction; for a pair, the geometric mean is used."));
         v("torsion_radius", torsion_radius,
           Field::length().within(0, 0.1).says("Radius of the soft contact points: each carries a "
                                               "moment up to friction x radius x normal force."));
@@ -139,7 +140,7 @@ struct Finger {
         v("friction", friction,
           Field::number()
               .within(0, kMostFriction)
-              .says("Coefficient of friction; for a pair, the geometric mean counts."));
+              .says("Coefficient of friction; for a pair, the geometric mean is used."));
         v("torsion_radius", torsion_radius,
           Field::length().within(0, 0.1).says(
               "Radius of a soft finger's contact points, as for a body."));
@@ -185,7 +186,7 @@ struct Scene {
     std::vector<Lattice> lattices;  ///< from a file; complete() makes bodies and joints of them
     std::vector<Finger> fingers;  ///< empty in a file: thumb and index, two pads for a grip along x
     std::string object;           ///< the body for summaries; empty: the first movable body
-    std::vector<Camera> cameras;  ///< in addition to those that every scene has (view/camera.h)
+    std::vector<Camera> cameras;  ///< cameras besides those that every scene has (view/camera.h)
     Node settings;                ///< settings that this scene requires (frame::Settings)
     Node hand;                    ///< how the simulated hand tries out the scene (hand::HandSpec)
     Place bodies_place;           ///< their line in the scene file

@@ -119,7 +119,7 @@ struct Shape {
 /// A shape in a compound.
 struct Part {
     Shape shape;
-    Vec3 position = Vec3::Zero();  ///< of the part's origin in the body's frame [m]
+    Vec3 position = Vec3::Zero();  ///< position of the part's origin in the body's frame [m]
     Vec3 rotation = Vec3::Zero();  ///< about the body's axes x, then y, then z [rad]
     Place place;                   ///< in the scene file
 

@@ -12,8 +12,8 @@ struct Solid {
     Pose X_BM;                    ///< centre of mass and principal axes in B
 };
 
-/// The solid of a shape with uniform density; inertia and pose keep their defaults without mass
-/// or volume.
+/// The solid of a shape with uniform density; inertia and pose keep their defaults if there is no
+/// mass or volume.
 Solid solid_of(const Shape& shape, double mass);
 
 }  // namespace dihaptic::scene

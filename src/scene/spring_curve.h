@@ -11,7 +11,7 @@ namespace dihaptic::scene {
 struct SpringCurve {
     std::vector<double> stretch;  ///< ascending [m] or [rad]
     std::vector<double>
-        resistance;  ///< at these stretches, positive against a positive stretch [N] or [N*m]
+        resistance;  ///< at these stretches; positive if it opposes a positive stretch [N] or [N*m]
 
     struct Point {
         double resistance = 0;

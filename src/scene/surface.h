@@ -18,7 +18,7 @@ constexpr double kMostFriction = 100;
 /// The surface of a body, a finger or a pair. A body or finger lacks the properties that are left
 /// out; a pair derives them from its two surfaces.
 struct Surface {
-    std::optional<double> stiffness;         ///< of a pressed face [N/m]; none: rigid
+    std::optional<double> stiffness;         ///< stiffness of a pressed face [N/m]; none: rigid
     std::optional<double> damping;           ///< parallel to it [N*s/m]
     std::optional<double> restitution;       ///< coefficient in Newton's law, 0 to 1
     std::optional<double> dynamic_friction;  ///< coefficient during sliding; none: the static one
@@ -46,17 +46,17 @@ struct Surface {
         v("restitution", restitution,
           Field::number().within(0, 1).says(
               "Speed after a bounce over the speed before it, Newton's law; for two surfaces, the "
-              "larger counts."));
+              "larger is used."));
         v("dynamic_friction", dynamic_friction,
           Field::number()
               .within(0, kMostFriction)
               .says("Coefficient of friction during sliding, at most the static one; for two "
-                    "surfaces, the geometric mean counts."));
+                    "surfaces, the geometric mean is used."));
         v("stribeck_speed", stribeck_speed,
           Field::of(Quantity::speed)
               .within(1e-4, 10)
               .says("Sliding speed at which friction has fallen from the static to the dynamic "
-                    "coefficient by 1 - 1/e; for two surfaces, the mean counts. If left out, 10 "
+                    "coefficient by 1 - 1/e; for two surfaces, the mean is used. If left out, 10 "
                     "mm/s."));
         v("film", film,
           Field::of(Quantity::damping)

@@ -26,17 +26,17 @@ struct Relief {
 };
 
 struct Texture {
-    /// Contacts are detected this far ahead, and a finger cannot slide over a steeper face.
+    /// Limits: contacts are detected kHighest ahead, and a finger cannot slide over a steeper face.
     static constexpr double kHighest = 3e-4;  // [m]
     static constexpr double kSteepest = 1;
 
     TextureKind kind = TextureKind::grating;
     double wavelength = 0.002;  ///< from ridge to ridge, or width of the picture [m]
     double friction = 0;  ///< fraction by which friction rises on ridges and falls between them
-    double height = 0;    ///< of ridges above the valleys [m]
+    double height = 0;    ///< height of ridges above the valleys [m]
     Vec3 along =
         Vec3::UnitX();  ///< across ridges, or toward a picture's right, in the body's frame
-    std::string file;   ///< for a picture
+    std::string file;   ///< file of a picture
     std::shared_ptr<const ReliefPicture> picture;  ///< the file's content
     Place place;
 

@@ -71,8 +71,8 @@ RealTime::RealTime(int priority) {
     refusals_.memory = ask_memory();
     refusals_.awake = ask_awake(awake_);
     touch_stack();
-    // last: the steps above take milliseconds, in which this thread would keep other programs
-    // waiting
+    // requested last, because the steps above take milliseconds, during which this thread would
+    // keep other programs waiting
     refusals_.priority = ask_priority(priority);
 }
 

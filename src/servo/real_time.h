@@ -1,8 +1,8 @@
 // RealTime requests the resources that a thread needs to keep time: priority over ordinary programs
 // (SCHED_FIFO), memory that is never fetched from disk or created on first touch, and processors
 // that do not enter a sleep with slow wake-up. Each needs a permission that ordinary users lack.
-// Any refusal is reported, with how to grant the permission, and the thread then runs without that
-// resource.
+// Any refusal is reported, together with how to grant the permission, and the thread then runs
+// without that resource.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@ namespace dihaptic::servo {
 
 class RealTime {
   public:
-    /// Requests them for the calling thread, which must have reserved its memory: later memory may
-    /// not be locked. `priority` is for SCHED_FIFO, from 1 to 99.
+    /// Requests the resources for the calling thread, which must already have reserved its memory:
+    /// memory allocated later might not be locked. `priority` is for SCHED_FIFO, from 1 to 99.
     explicit RealTime(int priority);
     /// Returns the granted resources. Must be called by the same thread.
     ~RealTime();
     RealTime(const RealTime&) = delete;
     RealTime& operator=(const RealTime&) = delete;
 
-    /// Each is 0 if it was granted, otherwise the system's error number.
+    /// For each resource, 0 if it was granted, otherwise the system's error number.
     struct Refusals {
         int priority = 0;
         int memory = 0;

@@ -19,9 +19,9 @@ namespace {
 using Steady = std::chrono::steady_clock;
 
 /// Before their first tick, devices that pace start a thread or a scheduler of their own. No force
-/// is on them then, so the watchdog waits longer than any of them needs.
+/// is applied then, so the watchdog waits longer than any of them needs.
 constexpr Time kDevicesBegin = std::chrono::seconds(4);
-/// After their last tick, in which force went off, they end that thread or scheduler.
+/// After their last tick, in which force was switched off, they end that thread or scheduler.
 constexpr Time kDevicesEnd = std::chrono::seconds(2);
 
 double elapsed(Steady::time_point since) {
@@ -125,8 +125,8 @@ struct RealLoop {
         return !servo.stopped();
     }
 
-    /// Includes a suspension of the machine in time, in whole periods, as the machine's clock
-    /// stands still then.
+    /// Adds the duration of a suspension of the machine, in whole periods, to the run's time,
+    /// because the machine's clock stands still meanwhile.
     Time add_suspension() noexcept {
         const Time asleep = suspension.since(Suspension::read());
         const Time added = (asleep / servo.period()) * servo.period();
@@ -177,10 +177,11 @@ void run_real(Servo& servo, const frame::Director& director, const frame::FrameS
         const RealTime real_time(servo.settings().real_time_priority);
         timing.refusals = real_time.refusals();
         auto start = Steady::now();
-        // one tick longer than the servo allows: if the watchdog stops the devices, the next tick
-        // is late by the servo's own clock too, which is recorded. The first tick is an exception.
+        // one tick longer than the servo allows, so that if the watchdog stops the devices, the
+        // next tick is late by the servo's own clock too, and this is recorded. The first tick is
+        // an exception.
         const Time pause = from_seconds(servo.settings().safety.max_pause) + servo.period();
-        // simulated devices have no person's hand; only a stuck loop matters
+        // no person's hand holds simulated devices, so only a stuck loop matters
         const Time limit = servo.real() ? pause : Watchdog::kStuck;
         std::optional<Timing::Stall> stall;  // owned by the watchdog's thread until that has ended
         auto watchdog = std::make_unique<Watchdog>(

@@ -67,12 +67,12 @@ std::string describe(const Timing::Stall& stall);
 Time run_virtual(Servo& servo, const frame::Director& director, const frame::FrameSink& sink,
                  Time most, const std::atomic<bool>& stop, TickTimes* times = nullptr);
 
-/// Runs ticks in real time, from `first` to `last`, in a thread of its own with the permissions
-/// that RealTime got: one at each deadline of Pace, on the monotonic clock plus the time for which
-/// the machine was suspended; devices that pace call them instead. A Watchdog stops real devices
-/// when no tick has ended for longer than `max_pause`; if the loop then continues, the next tick
-/// finds itself late. If it never does, `stuck` is called from the watchdog's thread: this function
-/// can no longer return, and the program should end.
+/// Runs the ticks from `first` to `last` in real time, in a thread of its own with the permissions
+/// that RealTime obtained. A tick runs at each deadline of Pace, on the monotonic clock plus any
+/// time for which the machine was suspended; devices that pace call the ticks instead. A Watchdog
+/// stops real devices when no tick has ended for longer than `max_pause`; if the loop then
+/// continues, the next tick detects that it is late. If it never does, `stuck` is called from the
+/// watchdog's thread: this function can no longer return, and the program should end.
 void run_real(Servo& servo, const frame::Director& director, const frame::FrameSink& sink,
               Time first, Time last, const std::atomic<bool>& stop, Timing& timing,
               const std::function<void(const Timing::Stall&)>& stuck = {});

@@ -295,13 +295,13 @@ void Servo::measure(Time now) noexcept {
         device_faults_[i] = fault.kind;
         faults_.trip(fault);
         handles_[i] = turn_.turned(unturned_[i], orientation);
-        // a hand that moved in a pause must not hurl objects in between
+        // a hand that moved during a pause must not hurl the objects in its way
         const bool elsewhere =
             resumed_ && (handles_[i].p_WH - frame_.fingers[i].p_WH).norm() > kElsewhere;
         if (frame_.sequence < 0 || elsewhere || anew_) fingers_[i].place(world_, handles_[i]);
     }
     anew_ = false;
-    // last: a device's report is more informative than the pause that it caused
+    // after the devices' reports, which are more informative than the pauses that they cause
     if (real_) faults_.trip(lateness_fault_);
 }
 
@@ -342,7 +342,8 @@ void Servo::make_forces(Time now) noexcept {
         asked = asked || !force.felt_0.is_zero();
     }
     const bool held = switch_held();
-    // a device that drops its force leaves half a grasp: the others wait, and all return gently
+    // a device that drops its force leaves half a grasp, so all forces stay off until they can
+    // return gently
     const bool allowed = held && !any_force_dropped(readings_) && !commands_.rest;
     const double rising = soft_start_.share(allowed, asked, settings_.tick());
     const double share = resumed_ ? 0 : rising;  // zero after a pause, even without a soft start
@@ -369,7 +370,7 @@ void Servo::make_forces(Time now) noexcept {
 
 namespace {
 
-/// Calls `act` for each object with orders in the last tick but no longer.
+/// Calls `act` for each object that had orders in the last tick but has none now.
 template <class Order, class Act>
 void for_each_lapsed(const std::vector<Order>& before, const std::vector<Order>& now,
                      int32_t Order::*of, const Act& act) {

@@ -33,7 +33,7 @@ constexpr Time kGrace = std::chrono::seconds(1);
 class Servo {
   public:
     /// `X_WD` and the devices are in the order of the scene's fingers. `wall` is the box in which
-    /// hands are kept; without one it is each device's workspace, if stated.
+    /// hands are kept; without a wall, the box is each device's workspace, if stated.
     Servo(const scene::Scene& scene, const frame::Settings& settings,
           std::unique_ptr<devices::DeviceGroup> devices, std::vector<Pose> X_WD,
           const std::optional<Eigen::AlignedBox3d>& wall = {});
@@ -97,8 +97,8 @@ class Servo {
     /// Sets the couplings as requested, but no stiffer than the loop allows.
     void retune() noexcept;
     void bound_rise(size_t finger, double share) noexcept;
-    /// Sets bodies as ordered, pulls proxies to their handles, and steps the world if it is time
-    /// to.
+    /// Sets bodies as ordered, pulls proxies to their handles, and steps the world if a step is
+    /// due.
     dynamics::StepStatus advance_world() noexcept;
     /// Applies the knobs, each as far as possible in this tick.
     void turn_knobs() noexcept;
@@ -111,7 +111,7 @@ class Servo {
     /// Sets the ordered poses and properties of bodies.
     void order_bodies() noexcept;
     void order_joints() noexcept;
-    /// Applies the loads on bodies, and of motors, to the coming step.
+    /// Applies the loads on bodies, and those of motors, to the coming step.
     void apply_loads() noexcept;
     /// Adds the loads on a handle to its force.
     void add_loads(size_t finger, Wrench& felt_W) const noexcept;
@@ -130,10 +130,10 @@ class Servo {
     dynamics::World world_;
     std::vector<haptics::Finger> fingers_;
     std::vector<std::optional<haptics::Finger>>
-        spares_;                   // fingers of the other kind, if changeable
+        spares_;                   // fingers of the other proxy kind, if the kind can change
     std::vector<size_t> turning_;  // fingers whose devices measure orientation
     std::unique_ptr<devices::DeviceGroup> devices_;
-    std::vector<Pose> X_0D_;  // in the world before the workspaces' turn
+    std::vector<Pose> X_0D_;  // poses in the world before the workspaces' turn
     std::vector<Pose> X_D0_;
     WorkspaceTurn turn_;
     std::vector<frame::Handle> unturned_;

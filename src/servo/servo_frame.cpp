@@ -66,7 +66,8 @@ void note_body(const dynamics::BodyState& state, uint16_t body, frame::Frame& fr
     out.v_WB = state.v_WB;
     out.w_WB = state.w_WB;
     out.awake = state.awake ? 1 : 0;
-    // squares: a value that overflows in the next computation has diverged already
+    // sums squares, because a value that would overflow in the next computation has already
+    // diverged
     const double size = out.X_WB.p.squaredNorm() + out.v_WB.squaredNorm() + out.w_WB.squaredNorm();
     if (!std::isfinite(size)) frame.status |= kNotFinite;
     frame.changed.push_back(body);

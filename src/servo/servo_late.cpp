@@ -36,9 +36,9 @@ void Servo::retune() noexcept {
 }
 
 /// Bounds the rise of force in a tick that may be late. Lateness that has just started has not
-/// yet softened the couplings, and never softens the wall or force fields. Force may rise from the
-/// last tick's only like that of a spring allowed for the loop, and by the creep, which lets
-/// it return; but never like that of a spring stiffer than the coupling.
+/// yet softened the couplings, and never softens the wall or force fields. From its value in the
+/// last tick, force may rise only as much as that of a spring with the stiffness allowed for the
+/// loop or with the coupling's, whichever is lower, and by the creep, which lets it return.
 void Servo::bound_rise(size_t finger, double share) noexcept {
     if (!real_ || late_.expected() <= 0 || share <= 0) return;
     Force& force = forces_[finger];

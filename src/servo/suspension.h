@@ -9,8 +9,8 @@ namespace dihaptic::servo {
 
 class Suspension {
   public:
-    /// The clock that runs during a suspension (boot), read between two readings of the one that
-    /// does not.
+    /// A reading of the clock that runs during a suspension (boot), between two readings of the
+    /// clock that does not.
     struct Clocks {
         Time before{0};
         Time boot{0};

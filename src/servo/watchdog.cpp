@@ -9,14 +9,15 @@ namespace dihaptic::servo {
 namespace {
 
 /// Without the higher priority, a servo that does not sleep would starve the watchdog on a shared
-/// processor. The servo's thread raises it: the watchdog's might never run.
+/// processor. The servo's thread raises the priority, because the watchdog's own thread might never
+/// run.
 void raise_above_this(std::thread& thread) {
     int policy = 0;
     sched_param priority{};
     if (pthread_getschedparam(pthread_self(), &policy, &priority) != 0 || policy != SCHED_FIFO)
         return;
     ++priority.sched_priority;
-    // if refused, it watches without
+    // if this is refused, the watchdog runs without the higher priority
     pthread_setschedparam(thread.native_handle(), policy, &priority);
 }
 

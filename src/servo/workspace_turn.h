@@ -48,9 +48,9 @@ class WorkspaceTurn {
     void advance(double elapsed) noexcept {
         if (rate_ != 0) set_angle(angle_ + rate_ * elapsed);
     }
-    /// Sets the rate from this tick on, within the bounds. `elapsed` [s]: since the last order, or
-    /// a tick's length if that is longer; with late ticks, the turn could not slow down in
-    /// time otherwise.
+    /// Sets the rate from this tick on, within the bounds above. `elapsed` [s]: since the last
+    /// order, or a tick's length if that is longer; with late ticks, the turn could not slow down
+    /// in time otherwise.
     void order(double rate, double elapsed) noexcept {
         const double change = kMostAcceleration * elapsed;
         rate_ = std::clamp(std::clamp(rate, -kMostRate, kMostRate), rate_ - change, rate_ + change);

@@ -42,7 +42,7 @@ void check_movement(const std::string& file, Diagnostics& diagnostics) {
     if (path.p_WH.size() > 1 && !hand::find_grasp(path)) {
         diagnostics.warning(
             {file, 0}, "", kNoGrasp,
-            "An experiment must give the time when they closed: movement: grasp_at_s.");
+            "An experiment must give the time when the fingers closed: movement: grasp_at_s.");
     }
 }
 
@@ -81,7 +81,8 @@ Checked check_file(const std::string& file, Diagnostics& diagnostics, const std:
         const task::FileKind kind = task::kind_of(file);
         switch (kind) {
             case task::FileKind::rig: {
-                // only checks the settings: an experiment's plan reads them over those of its scene
+                // read here only to check the settings: an experiment's plan applies them over
+                // those of its scene
                 const rig::Rig checked = rig::read_rig(file, diagnostics);
                 frame::Settings settings;
                 read_given_fields(settings, checked.settings, diagnostics);

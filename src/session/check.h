@@ -14,8 +14,8 @@ struct Checked {
                                       ///< origins: describe_safety()
 };
 
-/// Reads any file that Dihaptic knows, with the files that it names; problems are reported to
-/// `diagnostics`. `rig`: a rig file to use in place of the experiment's; may be empty.
+/// Reads any file of a kind that Dihaptic knows, and the files that it names; problems are reported
+/// to `diagnostics`. `rig`: a rig file to use in place of the experiment's; may be empty.
 Checked check_file(const std::string& file, Diagnostics& diagnostics, const std::string& rig = "");
 
 }  // namespace dihaptic::session

@@ -109,7 +109,7 @@ class Freezer {
         list(beside);
     }
 
-    /// Each of these changes the names in the scene, or in the task, to the copies.
+    /// Each of these functions replaces names in the scene, or in the task, by those of the copies.
     void freeze_meshes() {
         size_t count = 0;
         const std::function<void(scene::Shape&)> freeze_one = [&](scene::Shape& shape) {

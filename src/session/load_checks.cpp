@@ -156,7 +156,8 @@ class LoadChecks {
         }
     }
 
-    /// A load on a body is explicit: with k and b it is calm while k h^2 + 2 b h < 4 m.
+    /// A load on a body is explicit: with stiffness k and damping b it is calm while k h^2 + 2 b h
+    /// < 4 m.
     void check_body(const task::Load& load, const Demand& demand, const scene::Body& body) {
         const double h = plan_.settings.step();
         const double mass = scene::mass(body);

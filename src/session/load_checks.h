@@ -5,7 +5,7 @@
 
 namespace dihaptic::session {
 
-/// Warns of loads that shake or throw a handle, keep driving a hand, exceed a device's or the
+/// Warns of loads that shake or throw a handle, keep driving a hand, exceed a device's limit or the
 /// safety limit, or make a body diverge. A torque on a handle that renders none is an error.
 void check_loads(const Plan& plan, Diagnostics& diagnostics);
 

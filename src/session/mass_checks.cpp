@@ -47,7 +47,7 @@ void check_ratio(const Plan& plan, Diagnostics& diagnostics) {
     diagnostics.warning(
         heavy->place, heavy->name,
         fmt::format("has {:.3g} times the mass of {}: above {:g} times, the solver {} may let "
-                    "a body push one so light aside, or through its support",
+                    "the heavier body push the lighter one aside, or through its support",
                     ratio, light->name, most_ratio(solver), enum_name(solver)),
         other ? "Choose the solver staggered_projections, or make their masses more alike."
               : "Make their masses more alike.");
@@ -105,9 +105,9 @@ class Mechanisms {
     struct Link {
         bool hung = false;
         std::optional<size_t> above;
-        std::optional<Vec3> hangs_at;    // in the world [m]
-        std::optional<Vec3> carries_at;  // joint with the heaviest load below
-        double carries = 0;              // carried mass, with its own [kg]
+        std::optional<Vec3> hangs_at;    // position in the world [m]
+        std::optional<Vec3> carries_at;  // that of the joint with the heaviest load
+        double carries = 0;              // carried mass, including the link's own [kg]
     };
 
     /// The body's index, or none for an immovable body.

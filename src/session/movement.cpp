@@ -35,7 +35,8 @@ double passing_distance(const std::vector<Vec3>& path, const hand::GraspSite& si
     return nearest;
 }
 
-/// Positions of the block's two faces along the grasp axis, from the middle between the fingers.
+/// Positions of the block's two faces along the grasp axis, measured from midway between the
+/// fingers.
 struct Faces {
     double first = 0;  ///< on the first finger's side, positive outward [m]
     double second = 0;
@@ -88,7 +89,7 @@ std::optional<hand::GraspSite> grasp_of(const hand::Path& path, const task::Move
     const auto site = hand::find_grasp(path, spec.grasp_at);
     if (!site)
         diagnostics.error({file, 0}, "", kNoGrasp,
-                          "Give the time when they closed: movement: grasp_at_s.");
+                          "Give the time when the fingers closed: movement: grasp_at_s.");
     return site;
 }
 
@@ -97,8 +98,8 @@ void warn_of_faults(const hand::Path& path, const std::string& file, Diagnostics
         if (!fault.wrong_unit) continue;
         diagnostics.warning(
             {file, fault.line}, path.fingers[static_cast<size_t>(fault.finger)],
-            "this line's values are a thousandth of their neighbours': in metres instead of "
-            "millimetres? They were bridged",
+            "this line's values are a thousandth of their neighbours': are they in metres instead "
+            "of millimetres? They were bridged",
             "Multiply them by 1000.");
     }
     warn_of_bridges(path, file, diagnostics);

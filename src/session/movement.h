@@ -24,7 +24,7 @@ struct MovementReport {
 };
 
 constexpr const char* kNoGrasp =
-    "no grasp was found: the fingers never open, close and rest away from their start";
+    "no grasp was found: the fingers never open, close and come to rest away from their start";
 
 /// Warns when so much of the path is bridged that it reveals little about the hand.
 void warn_of_bridges(const hand::Path& path, const std::string& file, Diagnostics& diagnostics);

@@ -9,7 +9,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kLook{5};      // longest sleep before the pace is checked again
-constexpr milliseconds kBehind{100};  // a larger delay is not made up
+constexpr milliseconds kBehind{100};  // a larger delay is not made up for
 
 }  // namespace
 

@@ -24,7 +24,7 @@ class Pacing {
 
     Live& live_;
     const std::atomic<bool>& stop_;
-    double pace_ = -1;  // pace that has been kept since:
+    double pace_ = -1;  // the pace kept since from_ and begun_
     Time from_{0};
     Wall::time_point begun_;
 };

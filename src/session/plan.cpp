@@ -104,7 +104,7 @@ void plan_rig(Plan& plan, const Request& request, const task::Experiment& experi
         plan.rig = rig::read_rig(file, diagnostics,
                                  typed ? rig::NamedBy::the_operator : rig::NamedBy::a_file);
     } else {
-        // a mouse can turn the hand, which has an effect only if orientation is measured
+        // a mouse can turn the hand, but this has an effect only if orientation is measured
         plan.rig = rig::simulated_rig(scene::finger_names(plan.scene), request.mouse);
     }
     rig::check_age(plan.rig, recording::iso_now(), diagnostics);
@@ -120,7 +120,7 @@ void plan_rig(Plan& plan, const Request& request, const task::Experiment& experi
         diagnostics.warning(one.place, one.key, one.what, one.remedy);
 }
 
-/// Overlays the settings of scene, rig, experiment and command line, in this order; the later wins.
+/// Overlays the settings of scene, rig, experiment and command line, in this order: later ones win.
 void plan_settings(Plan& plan, const Request& request, const task::Experiment& experiment,
                    Diagnostics& diagnostics) {
     overlay(plan, plan.scene.settings, diagnostics);
@@ -329,8 +329,8 @@ std::shared_ptr<person::Person> sit_down(Plan& plan, const person::Traits& trait
 
 namespace {
 
-/// Reads the attempts from trials.csv, which has a row for each in chronological order, and its
-/// checksum.
+/// Reads the attempts from trials.csv, which has a row for each attempt in chronological order, and
+/// the file's checksum.
 std::vector<task::Attempt> attempts_made(const task::TaskPlan& plan, const std::string& file,
                                          std::string& checksum) {
     const auto bad = [&](const char* what) {
@@ -378,8 +378,8 @@ recording::Mover mover_of(const recording::SessionInfo& info, const Plan& plan,
         throw Error({file, 0}, "moved_by",
                     "does not state whether a mouse or the file's script moved the hand, and "
                     "trials of the two must not be mixed",
-                    "If you know it, add it to that file: 'moved_by: { mover: mouse }', or script. "
-                    "Otherwise run the experiment again.");
+                    "If you know it, add it to that file, as 'moved_by: { mover: mouse }' or "
+                    "'moved_by: { mover: script }'. Otherwise run the experiment again.");
     }
     if (mover == Mover::mouse && seat == Seat::terminal) {
         throw Error({file, 0}, "moved_by",
@@ -396,7 +396,7 @@ recording::Mover mover_of(const recording::SessionInfo& info, const Plan& plan,
     return mover;
 }
 
-/// The path of a folder with its name, which "." lacks, for readers who want to identify the
+/// The path of a folder including its name (which "." lacks), by which readers can identify the
 /// session.
 std::string named(const std::string& folder) {
     const fs::path name = fs::path(folder).filename();
@@ -481,7 +481,7 @@ std::unique_ptr<devices::DeviceGroup> open_devices(Plan& plan, const std::string
                                                    const std::function<bool()>& given_up) {
     std::optional<host::Hosting> hosting;
     if (!host.empty()) {
-        // one tick more than the servo allows itself, like its own watchdog
+        // one tick more than the servo itself allows, like the servo's own watchdog
         const double silence = plan.settings.safety.max_pause + plan.settings.tick();
         hosting = {host, silence, plan.settings.real_time_priority, given_up};
     }

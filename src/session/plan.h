@@ -30,9 +30,9 @@ struct Request {
     std::string movement;          ///< replaces the experiment's movement
     std::vector<std::string> set;  ///< "coupling.stiffness_N_m=600": settings from the command line
     uint64_t seed = 1;
-    bool mouse = false;               ///< a mouse moves the simulated hand, not the file
-    std::string participant;          ///< identifier, whose number may order the trials
-    std::optional<int> order_number;  ///< orders the trials in place of the participant's number
+    bool mouse = false;               ///< a mouse, not the file, moves the simulated hand
+    std::string participant;          ///< identifier, whose number may set the order of trials
+    std::optional<int> order_number;  ///< used in place of the participant's number
     bool simulate = false;            ///< simulated devices, whatever devices the rig has
     std::stop_token stop;             ///< ends the reading and cutting of meshes
 };
@@ -48,7 +48,8 @@ struct Plan {
     frame::Settings settings;
     Origins origins;
     hand::HandSpec hand;
-    /// Moves simulated devices, which share it. With a person at real devices it stays still.
+    /// Moves simulated devices, which share it. With a person at real devices, the driver stays
+    /// still.
     std::shared_ptr<const hand::Driver> driver;
     std::shared_ptr<hand::MouseDriver> mouse;  ///< the driver, if a mouse moves the hand
     recording::MovedBy moved_by;               ///< the mover that the driver represents
@@ -56,10 +57,10 @@ struct Plan {
     std::optional<MovementReport> movement;
     std::shared_ptr<const task::TaskPlan> task;  ///< trials; null if the experiment has none
     std::shared_ptr<task::SeeingDriver> seeing;  ///< the driver, if it acts on its sight
-    std::shared_ptr<person::Person> partner;     ///< simulated, in a task for two
+    std::shared_ptr<person::Person> partner;     ///< simulated partner in a task for two
     std::string person;               ///< text of person.yaml, if the driver is a simulated person
-    bool resumable = true;            ///< its driver can be rebuilt from its files
-    std::vector<task::Attempt> done;  ///< attempts made by an earlier part of the session
+    bool resumable = true;            ///< the driver can be rebuilt from the session's files
+    std::vector<task::Attempt> done;  ///< attempts made in an earlier part of the session
     std::string resumes;              ///< folder of that earlier part; empty if there is none
     std::string done_checksum;        ///< checksum of its trials.csv, as read (base/checksum.h)
     std::vector<Problem> warnings;
@@ -87,8 +88,8 @@ bool is_for_two(const Plan& plan);
 std::string partner_of(const std::string& id);
 
 /// Puts a simulated person in place of the plan's hand, and returns the person, who belongs to the
-/// plan. The plan must have trials. `partner`: in a task for two; if unset, somebody with the same
-/// traits, who differs only by chance.
+/// plan. The plan must have trials. `partner`: the other person in a task for two; if unset,
+/// somebody with the same traits, who differs only by chance.
 std::shared_ptr<person::Person> sit_down(Plan& plan, const person::Traits& traits,
                                          const std::optional<person::Traits>& partner = {});
 
@@ -100,7 +101,7 @@ enum class Seat { terminal, window };
 /// Error when no trial is left, when the session has no trials, or when the mover of its hand is
 /// unknown or not available here.
 Plan make_rest(const std::string& session, Seat seat, recording::SessionInfo& info);
-/// Whether the session has trials left. Throws Error when it never had any, or its files are
+/// Whether the session has trials left. Throws Error if it never had any or if its files are
 /// damaged.
 bool trials_left(const std::string& session);
 

@@ -39,7 +39,7 @@ bool is_known(const frame::DeviceInfo& info) {
     return std::isfinite(info.peak_force);
 }
 
-/// Converts a share of the devices' calm maximum to SI units. The weakest device counts, since all
+/// Converts a share of the devices' calm maximum to SI units. The weakest device decides, since all
 /// fingers have the same coupling. The setting is then treated as if given in SI units.
 std::optional<double> of_maximum(Plan& plan, const std::string& name, Quantity quantity,
                                  std::optional<double>& share,
@@ -79,11 +79,11 @@ void resolve_shares(Plan& plan, Diagnostics& diagnostics) {
         coupling.damping = *c;
 }
 
-/// Warns of a stiffness that the loop may not hold calmly. The limit is that of passivity: below it
-/// no hand makes the loop shake; above it, some do (bench grasp measures the practical limit).
+/// Warns of a stiffness at which the loop might not be calm. The limit is that of passivity: below
+/// it no hand makes the loop shake; above it, some do (bench grasp measures the practical limit).
 void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
     const frame::CouplingSettings& coupling = plan.settings.coupling;
-    if (coupling.stiffness_share) return;  // share of a maximum that is not yet known
+    if (coupling.stiffness_share) return;  // a share of a maximum that is not yet known
     const double h = plan.settings.step();
     const Place place = place_of(plan, "coupling.stiffness");
     for (const frame::DeviceInfo& info : plan.devices) {
@@ -96,7 +96,7 @@ void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
             fmt::format("{:g} N/m is above {:.0f} N/m (2 b / T), the highest stiffness at which "
                         "the hand's damping of {:g} N*s/m is certain to keep {} calm",
                         coupling.stiffness, limit, info.damping, info.model),
-            "It may be calm above this limit too, as in bench grasp, or shake: check the forces, "
+            "It may stay calm above this limit, as in bench grasp, or shake: check the forces, "
             "or lower it.");
         break;
     }
@@ -223,7 +223,7 @@ void check_solver(const Plan& plan, Diagnostics& diagnostics) {
     diagnostics.warning(
         place_of(plan, "dynamics.solver"), "dynamics.solver",
         "sequential_impulse does not support joints: newton solves jointed bodies",
-        "Choose newton for the whole scene, or leave the setting for the rest of it.");
+        "Choose newton for the whole scene, or keep the setting for bodies without joints.");
 }
 
 void check_grip(const Plan& plan, Diagnostics& diagnostics) {
@@ -313,8 +313,8 @@ void check_liftings(const Plan& plan, Diagnostics& diagnostics) {
         if (which.empty()) return;
         diagnostics.warning(
             plan.task->task.place, "task",
-            fmt::format("requires more of each finger than the {:.1f} N that {} {}, so that it "
-                        "slips {}: {}",
+            fmt::format("requires more of each finger than the {:.1f} N that {} {}, so that "
+                        "the object slips {}: {}",
                         limit, plan.devices.front().model, gives, then, which),
             "Make it lighter or less slippery, or use a rig with stronger devices.");
     };
@@ -456,7 +456,7 @@ std::vector<std::string> columns_named_by(const task::Task& task) {
     return out;
 }
 
-/// Names that no such column may have, each with the reason.
+/// Names that the columns named by a task must not have, each with the reason.
 std::map<std::string, const char*> taken_names() {
     std::map<std::string, const char*> out;
     for (const char* name : analysis::kEventColumns)

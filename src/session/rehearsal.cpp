@@ -123,7 +123,7 @@ void claim(const std::string& folder, const Rehearsal& rehearsal) {
                         "Choose another folder (--out FOLDER), or remove this one.");
         }
         if (there.asked == rehearsal.asked)
-            return;  // as in every shard of a cluster except the first
+            return;  // as in the shards of a cluster after the first
     }
     Rehearsal copy = rehearsal;
     write_file(to_yaml(write_fields(copy)), file_of(folder));

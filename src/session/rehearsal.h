@@ -1,6 +1,6 @@
 // The identity of a rehearsal, in the file rehearsal.yaml of the folder with its people: sessions
 // of a different experiment, seed, population or program are never added to it. The file also
-// contains the request, from which `dihaptic collect` knows the missing people.
+// contains the request, from which `dihaptic collect` works out which people are missing.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ struct Rehearsal {
     std::string seed;
     Asked asked;
     Node population;
-    std::string between;  ///< name of the program that decides between trials; empty: only the file
+    std::string between;  ///< program that controls the trials; empty: only the file does
     Node inputs;          ///< by file, as frozen by a session: everything that affects the result
 
     template <class Visitor>
@@ -55,12 +55,12 @@ struct Rehearsal {
     }
 };
 
-/// Identifier of the n-th person, from 1.
+/// Identifier of the n-th person, counted from 1.
 std::string person_id(int n);
-/// The n-th person's shard among `shards`, both from 1.
+/// The n-th person's shard among `shards`, both counted from 1.
 int shard_of(int n, int shards);
 
-/// `plan`: without a simulated person yet. `population`: source of its people.
+/// `plan`: has no simulated person yet. `population`: source of the rehearsal's people.
 Rehearsal rehearsal_of(const Plan& plan, Node population);
 /// Reads rehearsal.yaml in a folder. Throws Error when it is missing or cannot be read.
 Rehearsal read_rehearsal(const std::string& folder);
@@ -71,7 +71,7 @@ std::string difference(const Rehearsal& there, const Rehearsal& here);
 std::string difference(const Node& there, const Node& here);
 
 /// Makes the folder, or checks that it holds the same rehearsal, and notes the request. Throws an
-/// Error that names the difference when it holds another one.
+/// Error that names the difference when the folder holds another one.
 void claim(const std::string& folder, const Rehearsal& rehearsal);
 
 }  // namespace dihaptic::session

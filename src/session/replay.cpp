@@ -82,9 +82,9 @@ void order_again(const frame::Frame& recorded, frame::Commands& commands) {
 /// Describes gaps in the log, and whether the session's state accounts for them.
 void judge_log(recording::RawLogReader& log, const recording::SessionInfo& info,
                ReplayResult& result) {
-    const recording::LogHealth& health = log.read_to_end();  // for losses after a gap
+    const recording::LogHealth& health = log.read_to_end();  // to find losses after a gap
     result.log = recording::describe(health, info.ticks, log.head().planned());
-    // a recovered session is known to have no end; for others this must be reported
+    // a recovered session's log is known to lack its end mark; for others this must be reported
     const bool endless = info.state == recording::SessionState::recovered && !health.complete;
     result.damaged = !health.gaps.empty() || !health.strays.empty() ||
                      health.last_tick + 1 < info.ticks || (!endless && health.damaged(info.ticks));

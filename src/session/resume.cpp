@@ -192,7 +192,7 @@ Rest rest_of(const std::string& session, Seat seat, const std::function<void(dou
     out.plan = make_rest(session, seat, out.before);
     if (out.plan.moved_by.mover == Mover::simulated_person) {
         sit_down_again(out.plan, folder);
-        out.plan.moved_by.seed = out.before.moved_by.seed;  // with which the person was drawn
+        out.plan.moved_by.seed = out.before.moved_by.seed;  // the person was drawn with it
     }
     return out;
 }

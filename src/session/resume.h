@@ -35,8 +35,8 @@ void note_successor(const std::string& session, const std::string& next);
 
 /// How far a session has come.
 struct Standing {
-    bool running = false;   ///< a program records or recovers it at this moment
-    bool killed = false;    ///< its program ended before the session did: to be recovered
+    bool running = false;   ///< a program is recording or recovering it
+    bool killed = false;    ///< its program ended before the session did: it must be recovered
     bool complete = false;  ///< nothing is left to do
     size_t done = 0;        ///< trials with an attempt that ended
     size_t trials = 0;

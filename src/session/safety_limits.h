@@ -13,7 +13,7 @@
 
 namespace dihaptic::session {
 
-/// Settings whose `safety:` section counts, in rising order of precedence; a null node has none.
+/// Settings whose `safety:` sections apply, in rising order of precedence; a null node has none.
 struct SafetySources {
     const Node& rig;
     std::vector<const Node*> others;

@@ -36,7 +36,7 @@ double since(Wall::time_point begin) {
     return std::chrono::duration<double>(Wall::now() - begin).count();
 }
 
-/// Longest session: after it, a task waits for an event that does not come.
+/// Longest session: a task that has run for longer is waiting for an event that does not come.
 constexpr Time kLongest = std::chrono::hours(12);
 constexpr Time kLongestTimed = std::chrono::hours(1);
 
@@ -53,7 +53,7 @@ std::vector<recording::DeviceRecord> records_of(const servo::Servo& servo,
     std::vector<recording::DeviceRecord> out;
     for (const scene::Finger& finger : scene.fingers) {
         out.push_back({servo.devices().descriptions()[out.size()], finger.name});
-        // a device's name may have any bytes
+        // a device's name may contain arbitrary bytes
         out.back().model = mended(out.back().model, Lines::one);
         out.back().serial = mended(out.back().serial, Lines::one);
     }
@@ -132,8 +132,8 @@ class Watcher {
     std::thread thread_;
 };
 
-/// Waits for the end of a pause and wakes the servo. When its devices cannot be woken, gives the
-/// reason and waits again. Returns false when the session is to end.
+/// Waits for the end of a pause and resumes the servo. If its devices cannot be activated, gives
+/// the reason and waits again. Returns false when the session is to end.
 bool wait_to_go_on(servo::Servo& servo, Live& live, const std::atomic<bool>& stop) {
     while (true) {
         while (live.paused && !stop && !live.ended)
@@ -213,10 +213,10 @@ class Run {
     const Opening opening_;
     std::unique_ptr<Log> log_;
     std::vector<std::unique_ptr<Listener>> others_;
-    std::vector<Listener*> listeners_;  // all of them, and the watching thread's
+    std::vector<Listener*> listeners_;  // log_, others_ and the link to the watching thread
     std::optional<SessionDirector> director_;
     Time whole_{0};                    // the session is over after this time
-    std::atomic<int64_t> reached_{0};  // session time [ns]
+    std::atomic<int64_t> reached_{0};  // session time reached [ns]
 };
 
 RunResult Run::run() {
@@ -331,7 +331,7 @@ void Run::begin() {
     folder_.write_info(info_);
 }
 
-/// Null: there is nothing of this kind in the session.
+/// Adds a listener; null if the session has nothing for it to do.
 void Run::listen(std::unique_ptr<Listener> listener) {
     if (!listener) return;
     listeners_.push_back(listener.get());
@@ -380,7 +380,7 @@ void Run::run_ticks() {
     recording::HeadsWriter heads(folder_);
     const Watcher watcher([&] {
         if (progress_) progress_(std::min(1.0, share()));
-        // on the virtual clock a tick may wait for it
+        // on the virtual clock a tick may be waiting for the controller
         if (options_.controller != nullptr && stop_) options_.controller->between()->leave();
         if (live_ == nullptr) return;
         if (asked_to_end()) live_->ended = true;  // even in a pause
@@ -459,8 +459,8 @@ std::string Run::fault_text() const {
         fault.device >= 0 && !said.empty())
         out += " Its driver reports: " + said;
     const bool stopped = fault.kind == haptics::FaultKind::stopped;
-    if (!stopped) out += " The second before it is in fault.csv.";
-    if (live_ != nullptr) return out;  // the window gives the next steps
+    if (!stopped) out += " The last second before the fault is in fault.csv.";
+    if (live_ != nullptr) return out;  // the window states what to do next
     if (plan_.task && plan_.resumable) {
         out += fmt::format(" 'dihaptic resume {}' continues with the remaining trials.",
                            shell_file(folder_.path()));

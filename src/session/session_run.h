@@ -25,7 +25,7 @@ struct RunOptions {
     recording::Participant participant;
     recording::Participant partner;  ///< the second participant of a task for two
     std::optional<recording::InStudy> in_study;
-    ValueRing<char>* keys = nullptr;  ///< the operator's, until a tick takes them
+    ValueRing<char>* keys = nullptr;  ///< the operator's keys, until a tick takes them
     /// Called from another thread when a call to the devices never returns, so that run_session()
     /// cannot return either. It must show the message and end the program.
     std::function<void(const std::string& message)> stuck;
@@ -41,11 +41,12 @@ struct RunOptions {
     /// session.nwb, but the same tables.
     bool keep_log = true;
     /// Virtual clock only: makes the sink that receives the frames in place of raw.log, which is
-    /// then not written. The folder has its frozen inputs.
+    /// then not written. The folder already contains its frozen inputs.
     std::function<frame::FrameSink(const recording::SessionFolder&, const recording::SessionInfo&,
                                    const recording::LogHead&)>
         in_place_of_log;
-    /// Decides between trials; prepared for the plan, and must outlive the run.
+    /// Link to the program that controls the trials; prepared for the plan, and must outlive the
+    /// run.
     TrialController* controller = nullptr;
     /// Whether other programs may watch and steer the session (listeners/observers.h).
     bool observers = false;
@@ -54,9 +55,9 @@ struct RunOptions {
 
 struct RunResult {
     std::string folder;
-    recording::SessionInfo info;  ///< its state once the session's other files are written
+    recording::SessionInfo info;  ///< its `state` holds once the session's other files are written
     std::optional<recording::SessionLock>
-        lock;  ///< keeps other programs from recovering it until then
+        lock;  ///< keeps other programs from recovering the session until then
     std::optional<recording::SessionLock> earlier;  ///< lock on the session that this one resumes
     bool interrupted = false;
     double simulated = 0;  ///< session time reached [s]
@@ -66,7 +67,7 @@ struct RunResult {
     servo::Timing timing;
     std::string fault;  ///< reason why force was switched off, with a remedy; empty if it was not
     std::string stall;  ///< action of the watchdog; empty if none
-    std::vector<std::string> undecided;  ///< failures of the program that decides between trials
+    std::vector<std::string> undecided;  ///< failures of the program that controls the trials
 };
 
 /// Receives the completed share of the session, from 0 to 1, about ten times per second of wall

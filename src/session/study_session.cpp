@@ -81,7 +81,7 @@ study::Visit visit_in(const std::string& path, const study::StudyFile& study, si
             standing.killed, standing.done, standing.trials};
 }
 
-/// A recording that resumes another one began when that one did.
+/// Gives each recording that resumes another one the start of that one.
 void begin_with_first(std::vector<std::pair<study::Visit, std::string>>& found) {
     for (auto& [visit, resumes] : found) {
         for (const auto& [earlier, _] : found) {  // in the order of time
@@ -96,7 +96,7 @@ std::vector<study::Visit> visits_in(const study::StudyFile& study, size_t sessio
                                     const study::Member& member) {
     const std::string folder = session_folder(study, member, session);
     std::vector<study::Visit> out;
-    std::vector<std::pair<study::Visit, std::string>> found;  // with the session that each resumes
+    std::vector<std::pair<study::Visit, std::string>> found;  // and the session that each resumes
     std::vector<std::string> paths;
     if (!is_there(folder)) return out;
     std::error_code failed;

@@ -1,8 +1,8 @@
 // A study's sessions on the disk: what was recorded, what comes next, and the versions of the files
 // that affect a result.
 //
-// The study's folder has the study's file, participants.yaml, log.csv, versions.yaml, and the
-// recordings in sessions/PARTICIPANT/SESSION; its folder rehearsal/ has the same for simulated
+// The study's folder contains the study's file, participants.yaml, log.csv, versions.yaml, and the
+// recordings in sessions/PARTICIPANT/SESSION; its folder rehearsal/ contains the same for simulated
 // people.
 #pragma once
 
@@ -28,8 +28,8 @@ std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::
 /// Whether a recording counts as its session of the study, which may need only a share of its
 /// trials (`resuming`). Its folder lies in sessions/PARTICIPANT/SESSION beside the study's file.
 bool counts_in_study(const std::string& recorded, const recording::InStudy& place);
-/// Recovers the recordings whose programs were killed, so that it is known how far they came;
-/// `tell` is called before each. Returns whether there were any. Throws Error when one cannot be
+/// Recovers the recordings whose programs were killed, so that it is known how far they got; `tell`
+/// is called before each. Returns whether there were any. Throws Error when one cannot be
 /// recovered.
 bool recover_killed(const std::vector<study::Visit>& visits,
                     const std::function<void(const std::string& folder)>& tell);
@@ -53,7 +53,7 @@ study::StudyFile checked_study(const std::string& file, Diagnostics& diagnostics
 struct StudyVersion {
     int number = 0;     ///< from 1
     std::string since;  ///< ISO 8601
-    std::string why;    ///< of its change
+    std::string why;    ///< reason for the change
     std::string program;
     Node study;        ///< the study's file, without comments
     Node experiments;  ///< the frozen inputs of each experiment, by its name in the study's file

@@ -43,7 +43,7 @@ class TextureChecks {
     /// The textures of each trial, as its perturbations change them.
     void check_trials() {
         task::each_trial(*plan_.task, [&](size_t t, const task::TrialNumbers& numbers) {
-            std::map<int, frame::PropertiesFrame> all;  // by body: factors multiply
+            std::map<int, frame::PropertiesFrame> all;  // by body; factors are multiplied
             for (const int p : plan_.task->trials[t].perturb) {
                 const task::PerturbationSpec& spec =
                     plan_.task->task.perturbations[static_cast<size_t>(p)];
@@ -108,7 +108,7 @@ class TextureChecks {
 
     const Plan& plan_;
     Diagnostics& diagnostics_;
-    double way_;             // of an exploring hand in a step [m]
+    double way_;             // path of an exploring hand in a step [m]
     std::set<int> limited_;  // lines of the perturbations that a warning has named
     std::set<int> close_;
 };

@@ -45,9 +45,9 @@ bool is_own_file(int descriptor) {
                 "Check its content, and move it away; nothing in it was changed.");
 }
 
-/// Whether a folder is a session of this person that a rehearsal started: it has such a name
-/// (DATE_TIME_EXPERIMENT_PERSON, with _2 and so on), and session.yaml, scene.yaml or nothing at all
-/// in it.
+/// Whether a folder is a session of this person that a rehearsal started: its name has the form
+/// DATE_TIME_EXPERIMENT_PERSON (with _2 and so on), and it contains session.yaml, scene.yaml or
+/// nothing at all.
 bool is_session(const fs::directory_entry& entry, const std::string& id) {
     const std::string name = entry.path().filename().string();
     std::tm when{};

@@ -33,7 +33,7 @@ class Commands(unittest.TestCase):
             folder = session_of(out)
             self.assertIn("force is off since", pathlib.Path(folder + "session.yaml").read_text())
             self.assertIn("force off", pathlib.Path(folder + "trials.csv").read_text())
-            self.assertIn("The second before it is in fault.csv.", result.stdout)
+            self.assertIn("The last second before the fault is in fault.csv.", result.stdout)
             with open(folder + "fault.csv") as file:
                 rows = list(csv.DictReader(file))
             self.assertIn("moved faster than allowed", rows[-1]["status"])

@@ -77,7 +77,7 @@ TEST(Ring, RefusesWhatDoesNotFitAndKeepsTheRest) {
     EXPECT_FALSE(ring.pop(out));
 }
 
-/// A ring that was full, e.g. of keys, goes on as before.
+/// A ring that was full, e.g. of key presses, works as before once it has been emptied.
 TEST(ValueRing, RefusesWhatDoesNotFitAndGoesOn) {
     ValueRing<char> ring(64);
     int held = 0;
@@ -261,7 +261,7 @@ TEST(TextFile, SaysThatThePermissionIsMissing) {
     const testing::TemporaryFolder folder;
     const std::string file = folder.write("secret", "x");
     std::filesystem::permissions(file, std::filesystem::perms::none);
-    EXPECT_NE(refusal_of(file).find("you have no permission to"), std::string::npos);
+    EXPECT_NE(refusal_of(file).find("you do not have permission"), std::string::npos);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ Launch shell(const std::string& script) {
     return {"sh", {"-c", script}, {kNothing, kNothing, kNothing}};
 }
 
-/// The shell's output; `files` follow its first three.
+/// The shell's output; `files` are passed to it from file number 3 on.
 std::string said(const std::string& script, const std::vector<int>& files = {}, short flags = 0) {
     const Descriptor out(memfd_create("said", MFD_CLOEXEC));
     Launch launch = shell(script);
@@ -101,7 +101,7 @@ TEST(Child, KeepsAFileWhoseNumberItShares) {
 }
 
 /// Whether a child of this process, started with these flags, has any of the first 16 signals
-/// blocked, or ignored. A shell would set its own.
+/// blocked, or ignored. It is not a shell, which would change them itself.
 std::pair<bool, bool> blocks_or_ignores(short flags) {
     const Descriptor out(memfd_create("status", MFD_CLOEXEC));
     Launch launch{"cat", {"/proc/self/status"}, {kNothing, out.get(), kNothing}};

@@ -102,7 +102,7 @@ TEST(Companion, EndsWhenItIsStoppedAndOnlyThen) {
     CompanionTask whole = task("sleep 0.1; echo whole");
     whole.stop = another.get_token();
     EXPECT_EQ(run_companion(whole, ""), "whole\n");
-    another.request_stop();  // it has ended
+    another.request_stop();  // the companion has already ended
 }
 
 TEST(Companion, SeveralRunAtOnce) {

@@ -60,7 +60,7 @@ TEST(Descriptor, ClosesOnceAndLeavesErrnoAlone) {
         const Descriptor wrong(opened());
         ASSERT_EQ(::close(wrong.get()), 0);
         errno = ENOSPC;
-    }  // fails to close it, with EBADF
+    }  // closing it fails, with EBADF
     EXPECT_EQ(errno, ENOSPC);
 }
 

@@ -314,7 +314,7 @@ TEST(Node, RefusesASecondDocument) {
 }
 
 TEST(Node, RefusesAStrayComma) {
-    EXPECT_THROW(parse_yaml(",", "comma.yaml"), Error);  // reading this once never ended
+    EXPECT_THROW(parse_yaml(",", "comma.yaml"), Error);  // reading this text once never ended
     EXPECT_THROW(parse_yaml("{ a: 1 }, { b: 2 }", "comma.yaml"), Error);
     EXPECT_EQ(parse_yaml("", "empty.yaml").kind, Node::Kind::null);
 }

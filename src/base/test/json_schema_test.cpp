@@ -1,4 +1,4 @@
-// Schemas follow from visit(): types, units, bounds, defaults, kinds.
+// Tests that schemas follow from visit(): types, units, bounds, defaults, kinds.
 #include "base/json_schema.h"
 
 #include <gtest/gtest.h>

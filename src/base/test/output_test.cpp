@@ -1,4 +1,5 @@
-// Tests that output goes nowhere else, whatever already exists under the names of its files.
+// Tests that output goes to its own file only, whatever already exists under the names that it
+// uses.
 #include "base/output.h"
 #include "base/number.h"
 

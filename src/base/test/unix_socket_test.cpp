@@ -14,7 +14,7 @@
 namespace dihaptic::unix_socket_test {
 namespace {
 
-/// Whether a socket finds one that listens at this address, and receives from it.
+/// Expects that a socket connects to one that listens at this address, and receives from it.
 void expect_meeting(const UnixAddress& address) {
     const Descriptor early = unix_socket(SOCK_STREAM);
     EXPECT_FALSE(address.connect(early));
@@ -41,7 +41,7 @@ std::string name() {
 
 TEST(UnixSocket, IsFoundByItsNameWhileItIsThere) {
     expect_meeting(UnixAddress::of_name(name()));
-    expect_meeting(UnixAddress::of_name(name()));  // no file is in the way of the next one
+    expect_meeting(UnixAddress::of_name(name()));  // no old file blocks the second socket
 }
 
 TEST(UnixSocket, HasANameThatIsCutTheSameWayEverywhere) {

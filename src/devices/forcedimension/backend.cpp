@@ -107,8 +107,8 @@ void add_wrist(const Dhd& dhd, const Connection& connection, const Options& opti
     const bool turns = info.measures_orientation && dhd.has_active_wrist(connection.id());
     if (!turns && options.peak_torque) {
         throw Error(place, "peak_torque", fmt::format("{} renders no torque", info.model),
-                    "Leave it out: only devices with an active wrist render torque, and only with "
-                    "orientation.");
+                    "Leave it out: torque needs a device with an active wrist, whose orientation "
+                    "is used.");
     }
     if (!turns) return;
     const double stated = dhd.max_torque(connection.id());

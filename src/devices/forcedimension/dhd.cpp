@@ -7,7 +7,7 @@ Dhd load_dhd(const std::string& path, const Place& place) {
                            {"libdhd.so.3", "libdrd.so.3", "libdhd.so", "libdrd.so"},
                            false,
                            "Install the Force Dimension SDK 3 for Linux, and run ldconfig; or give "
-                           "the file's path, options: library.",
+                           "the file's path as options: library.",
                            {{"libusb-1.0", "Install the package libusb-1.0-0."}}},
                           path, place);
     Dhd dhd;

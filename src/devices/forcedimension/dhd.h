@@ -1,5 +1,5 @@
-// Our own declarations of the used part of Force Dimension's DHD API (libdhd, or libdrd, which
-// contains it). Units are SI; every call identifies its device by a number, `id`.
+// Our own declarations of the part of Force Dimension's DHD API (libdhd, or libdrd, which contains
+// it) that we use. Units are SI; every call identifies its device by a number, `id`.
 #pragma once
 
 #include <array>
@@ -64,7 +64,7 @@ struct Dhd {
     std::string file;  ///< from which the functions were loaded
 };
 
-/// Loads the library from `path`, or as found by the system if that is empty. Throws Error.
+/// Loads the library from `path`, or as found by the system if `path` is empty. Throws Error.
 Dhd load_dhd(const std::string& path, const Place& place);
 
 }  // namespace dihaptic::devices::forcedimension

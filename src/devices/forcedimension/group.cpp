@@ -43,8 +43,8 @@ Connection::Connection(const Dhd& dhd, int n, const Place& place) : dhd_(dhd) {
         throw Error(
             place, "serial",
             fmt::format("connected device {} cannot be opened: {}", n + 1, dhd.last_error()),
-            "Close other programs that use it. To see whether you may open it, run dihaptic doctor "
-            "says.");
+            "Close other programs that use it. To see whether you have permission to open it, run "
+            "dihaptic doctor.");
     }
     id_ = static_cast<char>(opened);
     const char* const name = dhd.system_name(id_);
@@ -94,8 +94,8 @@ void Group::set_watchdog(const Device& device) const {
     if (done >= 0) return;
     throw Error(device.place, "watchdog",
                 fmt::format("{} has no usable watchdog: {}", device.who, said),
-                "Without one its force may stay on when this program dies. To continue anyway, "
-                "with a hand near its switch, set options: watchdog: no.");
+                "Without a watchdog the force may stay on when this program dies. To continue "
+                "anyway, with a hand near the device's switch, set options: watchdog: no.");
 }
 
 void Group::do_activate() {

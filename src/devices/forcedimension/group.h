@@ -16,11 +16,11 @@ struct Options {
     int serial = kAny;                        ///< kAny: the only connected device
     std::string library;                      ///< path of libdhd.so, if the system finds none
     std::optional<double> peak_force;         ///< limit for this device [N]
-    std::optional<double> continuous_force;   ///< that it can sustain [N]
+    std::optional<double> continuous_force;   ///< force that the device can sustain [N]
     std::optional<Vec3> workspace;            ///< edges of the box around D's origin [m]
-    bool orientation = true;                  ///< whether to use it, if the device measures it
+    bool orientation = true;                  ///< whether orientation is used, if measured
     std::optional<double> peak_torque;        ///< limit for this device [N*m]
-    std::optional<double> continuous_torque;  ///< that it can sustain [N*m]
+    std::optional<double> continuous_torque;  ///< torque that the device can sustain [N*m]
     /// Whether to set the watchdog with which the device ends its force when commands stop;
     /// otherwise the watchdog is left unchanged.
     bool watchdog = true;

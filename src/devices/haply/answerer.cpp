@@ -20,7 +20,7 @@ constexpr const char* kMapped = "0000000000000000FFFF0000";  // before an IPv4 a
 /// An end of a connection as in /proc/net/tcp and tcp6: words of the address as in
 /// memory, and the port.
 struct End {
-    bool local = false;  // whether it is within this machine
+    bool local = false;  // whether the end is within this machine
     bool v6 = false;
     std::string text;
 };

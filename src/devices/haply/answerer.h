@@ -1,5 +1,5 @@
-// Finds the owner of the program that answers at a port of this machine. If a service does not run,
-// any user may open its port; that user would receive positions, and would be trusted.
+// Finds the owner of the program that answers at a port of this machine. If a service is not
+// running, any user may open its port; that user would receive positions, and would be trusted.
 #pragma once
 
 #include <sys/types.h>

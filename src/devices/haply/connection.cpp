@@ -29,7 +29,7 @@ using beast::error_code;
 using Steady = std::chrono::steady_clock;
 
 constexpr const char* kStart =
-    "Start the Inverse Service (sudo systemctl start haply-inverse-service), or correct url.";
+    "Start the Inverse Service (sudo systemctl start haply-inverse-service), or correct 'url'.";
 
 error_code system_error(int number) {
     return {number, boost::system::system_category()};
@@ -84,7 +84,7 @@ class TimedSocket {
         for (auto it = net::buffer_sequence_begin(buffers);
              it != net::buffer_sequence_end(buffers) && message.msg_iovlen < parts.size(); ++it) {
             const net::const_buffer part = *it;
-            // the cast is safe: sendmsg() only reads from there
+            // the cast is safe: sendmsg() only reads from this pointer
             parts[message.msg_iovlen++] = {const_cast<void*>(part.data()), part.size()};
         }
         return transfer(POLLOUT, ec, [&] {
@@ -200,7 +200,7 @@ std::optional<Url> Url::parse(const std::string& text) {
 struct Connection::Impl {
     using Stream = websocket::stream<TimedSocket>;
 
-    net::io_context context;  // never run: Beast's timers need one
+    net::io_context context;  // never run, but Beast's timers need a context
     Stream stream{context};
     bool open = false;
     std::vector<char> message = std::vector<char>(kMostBytes + kPadding);
@@ -230,7 +230,7 @@ void Connection::open(const Url& url, Time time_out) {
         ::getaddrinfo(url.host.c_str(), number_text(url.port).c_str(), &hints, &found);
     if (failure != 0) {
         throw Error(fmt::format("there is no computer {} ({})", url.host, gai_strerror(failure)),
-                    "Correct url: the service's default is ws://localhost:10001/.");
+                    "Correct 'url': the service's default is ws://localhost:10001/.");
     }
     const std::unique_ptr<addrinfo, void (*)(addrinfo*)> addresses(found, ::freeaddrinfo);
 
@@ -243,21 +243,21 @@ void Connection::open(const Url& url, Time time_out) {
     impl_->stream.handshake(fmt::format("{}:{}", url.host, url.port), url.path, ec);
     if (ec == websocket::error::upgrade_declined) {
         throw Error(fmt::format("the web server at {} refused a WebSocket handshake", where),
-                    "Correct url: the service accepts commands at ws://localhost:10001/ by "
+                    "Correct 'url': the service accepts commands at ws://localhost:10001/ by "
                     "default; another program may have its port.");
     }
     if (ec) {
         throw Error(
             fmt::format("the program that listens at {} is not a WebSocket service ({})", where,
                         ec == net::error::timed_out ? "no answer in time" : ec.message()),
-            "Correct url: another program may have the Inverse Service's port.");
+            "Correct 'url': another program may have the Inverse Service's port.");
     }
     if (const auto user = user_at_other_end(impl_->stream.next_layer().descriptor());
         user && !may_serve(*user)) {
         throw Error(
             fmt::format("the program that answers at {} belongs to another user (number {})", where,
                         *user),
-            "End that program, or correct url: the Inverse Service belongs to the system.");
+            "End that program, or correct 'url': the Inverse Service belongs to the system.");
     }
     impl_->stream.text(true);
     impl_->stream.auto_fragment(false);

@@ -25,7 +25,8 @@ class Connection {
   public:
     /// Longest message that can be received [bytes]. A full inventory has about 2000 a device.
     static constexpr size_t kMostBytes = 1 << 18;
-    /// Readable bytes after each message, which the parser needs.
+    /// Number of bytes after each message that must be readable, because the parser reads past the
+    /// end.
     static constexpr size_t kPadding = 64;
 
     Connection();

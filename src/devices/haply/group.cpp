@@ -55,7 +55,7 @@ std::vector<Wanted> read_wanted(const std::vector<DeviceConfig>& configs,
         }
         if (options.url != first.url || options.time_out != first.time_out) {
             diagnostics.error(
-                config.place, "url", "url or time_out differs from another device's",
+                config.place, "url", "'url' or 'time_out' differs from another device's",
                 "A single message of the service carries all fingers: give all devices "
                 "the same values.");
         }
@@ -202,7 +202,7 @@ class HaplyGroup final : public DeviceGroup {
 
     void do_pace(const std::function<bool()>& tick) override {
         receive();
-        fresh_ = false;  // the answer may be as old as the preceding pause
+        fresh_ = false;  // the answer may date from before the preceding pause
         while (true) {
             if (unanswered_ == 0) ask_without_force();
             receive();

@@ -39,9 +39,10 @@ void receive_first(Connection& connection, StateReader& reader, StateMessage& me
             "from 3.1 on answer at port 10001.");
     }
     if (!reader.read(text, message)) {
-        throw Error(fmt::format("the Inverse Service's {} is not a complete JSON object", what),
-                    "Correct url: another program may have the port; or restart the service (sudo "
-                    "systemctl restart haply-inverse-service).");
+        throw Error(
+            fmt::format("the Inverse Service's {} is not a complete JSON object", what),
+            "Correct 'url': another program may have the port; or restart the service (sudo "
+            "systemctl restart haply-inverse-service).");
     }
 }
 
@@ -69,7 +70,7 @@ void check_inventory(const StateMessage& message, std::span<const Wanted> device
         if (device.grip && message.grip(device.grip->kind, device.grip->id) == nullptr) {
             diagnostics.error(
                 device.place, std::string(enum_name(device.grip->kind)),
-                fmt::format("the Inverse Service knows no such grip '{}', or several",
+                fmt::format("the Inverse Service lists no grip '{}' of this kind, or more than one",
                             device.grip->id),
                 fmt::format("It lists: {}. Switch the grip on and pair it, or correct the "
                             "serial number.",

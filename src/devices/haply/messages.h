@@ -36,16 +36,17 @@ struct GripState {
     GripKind kind = GripKind::verse_grip;
     std::string_view id;
     std::optional<Quat> R;  ///< a component that is not a number is NaN
-    uint32_t buttons = 0;   ///< a, b, c: 1, 2, 4
+    uint32_t buttons = 0;   ///< bits of the buttons a, b and c: 1, 2, 4
 };
 
 /// A message from the service. Texts are valid until the next message is read.
 struct StateMessage {
-    static constexpr size_t kMostDevices = 16;  ///< and of grips; further ones are left out
+    static constexpr size_t kMostDevices = 16;  ///< the same for grips; further devices and grips
+                                                ///< are left out
 
     std::span<const DeviceState> devices() const { return {device_list.data(), device_count}; }
     std::span<const GripState> grips() const { return {grip_list.data(), grip_count}; }
-    /// The only device, or grip, with that serial number; null if there is none, or several.
+    /// The only device, or grip, with that serial number; null if there is none, or more than one.
     const DeviceState* device(std::string_view id) const;
     const GripState* grip(GripKind kind, std::string_view id) const;
 

@@ -8,8 +8,8 @@
 
 namespace dihaptic::devices::haply {
 
-/// The service's spelling of the field in a force command: `vector` in the documents of 3.5,
-/// `values` in earlier ones and in clients of that time.
+/// The service's spelling of the field in a force command: `vector` in version 3.5's documents,
+/// `values` in earlier documents and in clients of that time.
 enum class ForceKey { vector, values };
 constexpr auto enum_names(ForceKey) {
     return std::array{"vector", "values"};
@@ -20,7 +20,7 @@ struct Options {
     std::string url = "ws://localhost:10001/";
     ForceKey force_key = ForceKey::vector;
     double time_out = 0.02;  ///< time without an answer after which the connection is closed [s]
-    double peak_force = 5;   ///< larger forces are clamped; not verified [N]
+    double peak_force = 5;   ///< larger forces are clamped; value not verified [N]
     std::string verse_grip;  ///< serial number of a wired grip, for the orientation
     std::string wireless_verse_grip;  ///< serial number of a wireless grip, for the orientation
 

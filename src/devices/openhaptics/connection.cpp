@@ -134,9 +134,10 @@ void Connection::read_info() {
     if (!info_.max_stiffness && sound(stiffness)) info_.max_stiffness = stiffness;
     if (!info_.max_damping && sound(damping)) info_.max_damping = damping;
     if (!options_.serial.empty() && options_.serial != serial_) {
-        throw Error(place_, "serial",
-                    fmt::format("{} does not have serial number {}", who(), options_.serial),
-                    "Correct name or serial, or swap the devices in the driver's configuration.");
+        throw Error(
+            place_, "serial",
+            fmt::format("{} does not have serial number {}", who(), options_.serial),
+            "Correct 'name' or 'serial', or swap the devices in the driver's configuration.");
     }
 }
 
@@ -150,8 +151,8 @@ void Connection::read_limits_of_turning() {
     forget_errors();  // not every device states these
     if (!turns && options_.peak_torque) {
         throw Error(place_, "peak_torque", who() + " renders no torque",
-                    "Leave it out: only devices with six output degrees of freedom render torque, "
-                    "with orientation.");
+                    "Leave it out: torque needs a device with six output degrees of freedom, whose "
+                    "orientation is used.");
     }
     if (!turns) return;
     info_.peak_torque = options_.peak_torque.value_or(sound(peak) ? peak : 0);

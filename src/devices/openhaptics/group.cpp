@@ -10,8 +10,8 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
-/// Time without a call after which the scheduler is abandoned: once it has started, and before
-/// that.
+/// Times without a call after which the scheduler is abandoned: once it has started (kSilence), and
+/// before that (kBeginning).
 constexpr auto kSilence = std::chrono::milliseconds(100);
 constexpr auto kBeginning = std::chrono::seconds(2);
 constexpr auto kLook = std::chrono::milliseconds(5);

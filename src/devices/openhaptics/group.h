@@ -1,6 +1,6 @@
 // A group of devices served in one callback of HD's scheduler, which paces the tick: each device's
-// frame starts and it is read, the tick computes, then each device's force is set and its frame
-// ends.
+// frame starts and its state is read, the tick computes, then each device's force is set and its
+// frame ends.
 //
 // D has HD's axes (x right, y up, z toward the person). Its origin is the middle of the usable
 // workspace that the device states, or HD's own origin if the device's joint angles are used.
@@ -21,10 +21,11 @@ struct Options {
     std::string serial;          ///< required serial number; "": any
     std::string library;         ///< path of libHD.so, if the system does not find it
     bool encoder_reset = false;  ///< reset at each activation, with the arm in its neutral pose
-    bool orientation = true;     ///< whether to use it, if the device measures it
-    std::optional<double> peak_torque;  ///< lower than the device's own, or replacing it [N*m]
+    bool orientation = true;     ///< whether orientation is used, if measured
+    std::optional<double> peak_torque;  ///< below the device's own, or used if it has none [N*m]
     std::optional<double> continuous_torque;  ///< replaces the device's value [N*m]
-    bool joint_angles = false;                ///< whether a Premium's are read, for a calibration
+    bool joint_angles = false;                ///< whether a Premium's joint angles are read, for a
+                                              ///< calibration
     model::PhantomLinks links;                ///< for a device whose joint angles are read
     std::optional<double> max_stiffness;      ///< replaces the device's value [N/m]
     std::optional<double> max_damping;        ///< replaces the device's value [N*s/m]
@@ -42,8 +43,8 @@ struct Options {
         v("peak_torque", peak_torque,
           Field::of(Quantity::torque)
               .within(1e-4, 100)
-              .says("Limit to which larger torques are reduced: lower than the device's own, or in "
-                    "its place."));
+              .says("Limit to which larger torques are reduced: below the device's own limit, or "
+                    "used where the device states none."));
         v("continuous_torque", continuous_torque,
           Field::of(Quantity::torque)
               .within(1e-4, 100)
@@ -123,9 +124,9 @@ class Group final : public DeviceGroup {
         Connection connection;
         bool framed = false;   // whether its frame has started
         uint32_t trouble = 0;  // Status bits until the next activation
-        bool dropped = false;  // whether it cut its force in this tick
+        bool dropped = false;  // whether the device cut its force in this tick
         ForceDrops drops;
-        unsigned said = kHdSuccess;  // its last error
+        unsigned said = kHdSuccess;  // the device's last error
     };
 
     void do_activate() override;

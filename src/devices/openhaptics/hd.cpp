@@ -24,7 +24,7 @@ constexpr HdErrorRow kHdErrorRows[] = {
     {kHdInvalidOperation, "HD_INVALID_OPERATION, not possible now", ""},
     {kHdBadHandle, "HD_BAD_HANDLE, no such device",
      "Switch it on, and check its name in the driver's configuration"},
-    {kHdWarmMotors, "HD_WARM_MOTORS, its motors are hot", "Let them cool, and press less"},
+    {kHdWarmMotors, "HD_WARM_MOTORS, its motors are hot", "Let them cool, and press less hard"},
     {kHdExceededMaxForce, "HD_EXCEEDED_MAX_FORCE, more force than it can bear", kGently},
     {kHdExceededMaxImpulse, "HD_EXCEEDED_MAX_FORCE_IMPULSE, a force that rose too fast", kGently},
     {kHdExceededMaxVelocity, "HD_EXCEEDED_MAX_VELOCITY, it moved too fast", kGently},
@@ -86,7 +86,7 @@ Hd load_hd(const std::string& path, const Place& place) {
          {"libHD.so", "libHD.so.3.4", "libHD.so.3.0"},
          true,
          "Install OpenHaptics 3.4 for Linux and the device driver from 3D Systems, and run "
-         "ldconfig; or give the file's path, options: library.",
+         "ldconfig; or give the file's path as options: library.",
          {{"libPhantomIOLib42", driver},
           {"libPHANToMIO", driver},
           {"libncurses.so.5", "Install the package libncurses5."}}},

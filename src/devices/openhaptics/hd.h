@@ -1,5 +1,5 @@
-// Our own declarations of the used part of OpenHaptics' HD API (libHD). Units are mm,
-// mm/s, N, mN*m and rad; axes are x right, y up, z toward the person.
+// Our own declarations of the part of OpenHaptics' HD API (libHD) that we use. Units are mm, mm/s,
+// N, mN*m and rad; axes are x right, y up, z toward the person.
 #pragma once
 
 #include "base/library.h"
@@ -118,7 +118,7 @@ struct Hd {
     std::string file;  ///< from which the functions were loaded
 };
 
-/// Loads the library from `path`, or as found by the system if that is empty. Throws Error.
+/// Loads the library from `path`, or as found by the system if `path` is empty. Throws Error.
 Hd load_hd(const std::string& path, const Place& place);
 
 }  // namespace dihaptic::devices::openhaptics

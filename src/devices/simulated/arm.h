@@ -74,7 +74,7 @@ class Arm {
     model::PhantomDynamics dynamics_;
     double carried_;
     Vec3 offset_;    // true minus reported angles [rad]
-    Vec3 step_;      // of the encoders [rad]
+    Vec3 step_;      // step of the encoders [rad]
     Vec3 peak_;      // limit of the motors' torques [N*m]
     Vec3 friction_;  // [N*m]
     Vec3 torques_ = Vec3::Zero();

@@ -16,11 +16,13 @@ Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
     read_given_fields(options, config.options, diagnostics);
     if (options.peak_torque > 0 && !options.orientation) {
         diagnostics.error(config.place, "peak_torque",
-                          "a device that renders torque measures orientation",
+                          "a device that renders torque must measure orientation",
                           "Add orientation: yes, or leave out peak_torque_Nm.");
     }
     if (options.joint_offset != Vec3::Zero() && options.arm != Mechanics::phantom) {
-        diagnostics.error(config.place, "joint_offset", "a device without joints has none",
+        diagnostics.error(config.place, "joint_offset",
+                          "a device without joints has no joint "
+                          "offset",
                           "Add arm: phantom, or leave out joint_offset_deg.");
     }
     return options;

@@ -34,8 +34,9 @@ struct Options {
     Preset preset = Preset::plant;  ///< sets all other options, each of which may also be given
     double mass = 0.075;            ///< apparent mass at the endpoint [kg]
     double peak_force = 8.5;        ///< larger forces are clamped [N]
-    std::optional<double> continuous_force;  ///< that the motors can sustain [N]
-    double position_step = 0;                ///< of the encoders, at the endpoint; 0: exact [m]
+    std::optional<double> continuous_force;  ///< force that the motors can sustain [N]
+    double position_step = 0;                ///< step of the encoders, at the endpoint; 0: exact
+                                             ///< [m]
     double friction = 0;                     ///< Coulomb friction at the endpoint [N]
     int delay_ticks = 0;                     ///< ticks from writing a force until it acts
     int velocity_window = 8;  ///< number of ticks for computing velocity if positions have steps
@@ -56,9 +57,9 @@ struct Options {
     bool orientation =
         false;  ///< whether orientation is measured: otherwise the endpoint does not turn
     double peak_torque = 0;  ///< larger torques are clamped; 0: the device renders none [N*m]
-    std::optional<double> continuous_torque;  ///< that the motors can sustain [N*m]
+    std::optional<double> continuous_torque;  ///< torque that the motors can sustain [N*m]
     double inertia = 1e-4;  ///< of the handle about its endpoint, equal about all axes [kg*m^2]
-    double angle_step = 0;  ///< of the three encoders of the gimbal; 0: exact [rad]
+    double angle_step = 0;  ///< step of the gimbal's three encoders; 0: exact [rad]
 
     template <class Visitor>
     void visit(Visitor& v) {

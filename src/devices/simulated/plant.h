@@ -66,7 +66,7 @@ class Plant {
     Vec3 v_ = Vec3::Zero();
     Quat R_ = Quat::Identity();
     Vec3 w_ = Vec3::Zero();
-    std::vector<Wrench> pending_;  // the last delay_ticks + 1 written; the oldest is the acting one
+    std::vector<Wrench> pending_;  // the last delay_ticks + 1 wrenches; the oldest acts
     size_t newest_ = 0;
 };
 
@@ -87,7 +87,7 @@ class Encoder {
     Past<Vec3> past_;
 };
 
-/// The same for an arm, whose joints have an encoder each.
+/// Like Encoder, for an arm, whose joints have an encoder each.
 class JointEncoder {
   public:
     explicit JointEncoder(const Options& options) : past_(options.velocity_window) {}
@@ -98,7 +98,7 @@ class JointEncoder {
     Past<Vec3> past_;
 };
 
-/// The same for an orientation; the gimbal has an encoder for each angle of rotation_xyz().
+/// Like Encoder, for an orientation; the gimbal has an encoder for each angle of rotation_xyz().
 class Gimbal {
   public:
     explicit Gimbal(const Options& options)

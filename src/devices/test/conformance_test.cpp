@@ -178,7 +178,7 @@ TEST_P(Conformance, ItsOptionsSayNothingElseThanItsDevicesDo) {
         if (!said.serial.empty()) {
             EXPECT_EQ(said.serial, is.serial);
         }
-        // complete, or only values that an open device reports are missing
+        // either it is complete, or it lacks only values that an open device reports
         if (std::isfinite(said.peak_force)) {
             EXPECT_EQ(said, is);
         }

@@ -1,4 +1,4 @@
-// Puts simulated devices behind fakes of the manufacturers' software, by backend.
+// Puts simulated devices behind a fake of the manufacturer's software, for each real backend.
 #pragma once
 
 #include <algorithm>

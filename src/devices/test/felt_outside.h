@@ -24,9 +24,9 @@
 namespace dihaptic::devices {
 
 struct Felt {
-    double force = 0;     ///< that acts on the hand [N]
+    double force = 0;     ///< force that acts on the hand [N]
     double told_at = 0;   ///< time of the device's last force command, on CLOCK_MONOTONIC [s]
-    double watchdog = 0;  ///< time after that when its firmware ends force; 0: never [s]
+    double watchdog = 0;  ///< delay until its firmware then ends the force; 0: never [s]
     double gone_at = 0;   ///< time at which its force last became zero, on CLOCK_MONOTONIC [s]
     double opened = 0;    ///< number of times that the device was opened
 };

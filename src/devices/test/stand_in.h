@@ -12,7 +12,7 @@ namespace dihaptic::devices {
 struct StandIn {
     const char* backend;
     struct Made {
-        std::vector<DeviceConfig> configs;  ///< for the backend
+        std::vector<DeviceConfig> configs;  ///< configurations for the backend
         std::shared_ptr<void> service;      ///< must outlive the devices; null for a library
     };
     /// `simulated`: configurations of simulated devices. `context.driver` must outlive them.

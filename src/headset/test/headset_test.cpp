@@ -1,5 +1,5 @@
-// Tests headsets on the tests' OpenXR runtime, with OpenXR's validation layer in between, which has
-// to be silent; on a display of Xvfb, since pictures are drawn by OpenGL on X11.
+// Tests headsets on the tests' OpenXR runtime, with OpenXR's validation layer in between, which
+// must report nothing. The display is one of Xvfb, since pictures are drawn by OpenGL on X11.
 #include "headset/headset.h"
 #include "base/number.h"
 
@@ -32,7 +32,7 @@ using test::Pretence;
 using test::RuntimeEye;
 using test::RuntimePose;
 
-/// A display of X11 that nobody sees.
+/// An X11 display that appears on no screen.
 class Xvfb {
   public:
     Xvfb() {
@@ -86,7 +86,7 @@ class HeadsetTest : public ::testing::Test {
             GTEST_SKIP() << "Xvfb does not start; it is in the Debian package xvfb";
     }
 
-    /// The findings of the validation layer. Newer ones also report that they begin and end.
+    /// The findings of the validation layer. Newer layers also report that they begin and end.
     std::string messages() const {
         std::istringstream all(testing::read_file(messages_));
         std::string out;

@@ -14,7 +14,7 @@ struct RuntimePose {
 };
 
 struct RuntimeEye {
-    RuntimePose pose;                             ///< in the space that is asked for
+    RuntimePose pose;                             ///< pose in the space that is asked for
     float left = 0, right = 0, up = 0, down = 0;  ///< angles [rad]
 };
 
@@ -27,7 +27,7 @@ struct Pretence {
     bool tracked = true;
     bool located = true;
     bool visible = true;
-    bool ends = false;  ///< it ends the session
+    bool ends = false;  ///< whether the runtime ends the session
 };
 
 struct RuntimePicture {
@@ -46,7 +46,7 @@ struct Handed {
     RuntimePose words_pose;
 };
 
-// Each has the library's own lock.
+// Each of these functions takes the library's own lock.
 extern "C" {
 /// Sets what is pretended from the next picture on.
 using PretendFunction = void (*)(const Pretence&);

@@ -221,7 +221,7 @@ TEST_P(Kept, DevicesAreAtZeroWhenTheProgramIsAboutToDie) {
     EXPECT_GT(again, 1);
 }
 
-/// The device host that this process started last, which has no other children.
+/// The device host that this process started last; this process has no other children.
 pid_t keeper_pid() {
     std::ifstream children("/proc/self/task/" + number_text(getpid()) + "/children");
     pid_t out = 0;
@@ -252,7 +252,7 @@ TEST_P(Kept, DevicesOfAKeeperThatWasStoppedLoseTheirForceAtOnceWhenItGoesOn) {
         }
         kept->write(kPush);  // the request that it finds when resumed is old
         if (!last) return true;
-        // longer than any force may last without a request, and than HD's missed callbacks
+        // longer than any force may last without a request, or HD may miss callbacks
         std::this_thread::sleep_for(milliseconds(150));
         const int64_t begin = monotonic();
         kill(host, SIGCONT);
@@ -276,7 +276,7 @@ TEST(Host, ThatDoesNotAnswerIsGivenUpWhenTheProgramIsInterrupted) {
     } catch (const Error& e) {
         EXPECT_NE(std::string(e.what()).find("interrupted while"), std::string::npos) << e.what();
     }
-    // and its process is ended, which takes kSetDown
+    // the device host's process is ended too, which takes kSetDown
     EXPECT_LT(static_cast<double>(monotonic() - begin) * 1e-9, 20);
 }
 

@@ -7,7 +7,7 @@
 namespace dihaptic::outlets::lsl {
 namespace {
 
-/// The used part of liblsl's C interface, in which pointers are opaque too.
+/// The part of liblsl's C interface that we use; its pointers are opaque here too.
 struct Receiving {
     Library file;
     int32_t (*resolve)(void** infos, uint32_t most, const char* property, const char* value,
@@ -54,11 +54,11 @@ bool Inlet::find(std::chrono::duration<double> patience) {
         return false;
     const std::unique_ptr<void, void (*)(void*)> info(found, library.destroy_info);
     parts_->channels = library.channel_count(info.get());
-    // not recovered by liblsl: another stream with that name may have other channels
+    // without recovery by liblsl: another stream with that name may have other channels
     parts_->inlet.reset(library.create_inlet(info.get(), kBuffered, 1, 0));
     if (!parts_->inlet)
         throw Error(fmt::format("liblsl cannot open the stream '{}'", parts_->stream),
-                    "See its messages in the terminal.");
+                    "See liblsl's messages in the terminal.");
     return true;
 }
 

@@ -13,8 +13,8 @@ namespace dihaptic::outlets::lsl {
 
 class Inlet {
   public:
-    /// `library`: path of liblsl; empty: found by the system. Throws Error for `place`
-    /// without it.
+    /// `library`: path of liblsl; empty: found by the system. Throws Error for `place` if liblsl
+    /// cannot be loaded.
     Inlet(const std::string& stream, const std::string& library, const Place& place);
     ~Inlet();
 

@@ -26,7 +26,7 @@ Options read_options(const OutletConfig& config, Diagnostics& diagnostics) {
     return options;
 }
 
-/// The used part of liblsl's C interface, in which pointers are opaque too.
+/// The part of liblsl's C interface that we use; its pointers are opaque here too.
 struct Interface {
     Library file;
     void* (*create_streaminfo)(const char* name, const char* type, int32_t channels, double rate,
@@ -92,7 +92,7 @@ class Lsl final : public Outlet {
         if (result != 0)
             throw Error(
                 fmt::format("liblsl did not accept {}: {} ({})", what, describe(result), result),
-                "See its messages in the terminal.");
+                "See liblsl's messages in the terminal.");
     }
     Made open(const std::string& name, const char* type, const std::vector<Channel>& channels,
               double rate, int format, const std::string& source) const {
@@ -102,7 +102,7 @@ class Lsl final : public Outlet {
             library_.destroy_streaminfo);
         if (!info)
             throw Error(place_, "name", fmt::format("liblsl cannot describe the stream '{}'", name),
-                        "See its messages in the terminal, or remove the outlet.");
+                        "See liblsl's messages in the terminal, or remove the outlet.");
         void* list = library_.append_child(library_.get_desc(info.get()), "channels");
         for (const Channel& channel : channels) {
             void* one = library_.append_child(list, "channel");

@@ -5,7 +5,7 @@
 
 namespace dihaptic::outlets::lsl {
 
-/// `path`: its file; empty: found by the system. Throws Error for `place`.
+/// `path`: the library's file; empty: found by the system. Throws Error for `place`.
 inline Library load(const std::string& path, const Place& place) {
     return {{"liblsl",
              {"liblsl.so.2", "liblsl.so"},
@@ -27,7 +27,7 @@ inline const char* describe(int32_t error) {
         case -2:
             return "the stream was lost";
         case -3:
-            return "it does not accept such a sample";
+            return "it does not accept this sample";
         default:
             return "an internal error";
     }

@@ -1,4 +1,4 @@
-// For each kind of outlet, one that tests can make and break.
+// For each kind of outlet, an outlet that tests can make and break.
 #pragma once
 
 #include <fmt/format.h>

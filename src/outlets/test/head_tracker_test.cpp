@@ -71,7 +71,7 @@ class Stream : public ::testing::Test {
     std::string file() const { return folder_.path() + "/stream"; }
     void send(const std::string& sample, const std::string& about = "Head 5") const {
         std::ofstream(file() + ".new") << about << "\n" << sample << "\n";
-        std::filesystem::rename(file() + ".new", file());  // never half of it
+        std::filesystem::rename(file() + ".new", file());  // so that half a file is never read
     }
     /// Waits for a condition; returns whether it became true.
     static bool comes(const std::function<bool()>& holds) {

@@ -47,7 +47,7 @@ Bytes written() {
     writer.finish();
     recording::RawLogReader reader(file);
     for (int i = 0; i < 10; ++i) {
-        if (reader.next() == nullptr) std::abort();  // nothing read from it would have any meaning
+        if (reader.next() == nullptr) std::abort();  // the log must be intact before it is edited
     }
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};

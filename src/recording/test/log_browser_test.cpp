@@ -9,7 +9,7 @@
 namespace dihaptic::recording::log_browser_test {
 namespace {
 
-/// Reads it at moments back and forth, and continues from each.
+/// Reads the log at random moments, and shortly after each of them.
 void expect_all_moments(const std::string& file, int64_t frames) {
     LogBrowser browser(file);
     EXPECT_EQ(browser.begin(), 0);

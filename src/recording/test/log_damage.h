@@ -49,7 +49,7 @@ inline std::string damage_log(const testing::TemporaryFolder& folder, double ses
 }
 
 /// Reads a log of `session` to its end. Every frame has to be one that was written, later than the
-/// previous one, with every body where it was or NaN.
+/// previous one, with every body either where it was or NaN.
 inline LogHealth read_damaged(const std::string& file, double session) {
     RawLogReader reader(file);
     int64_t last = -1;
@@ -81,7 +81,7 @@ inline void expect_mischief_is_told(int cases) {
             const LogHealth health = read_damaged(folder.write("damaged.log", text), 1);
             EXPECT_TRUE(health.damaged(0));
             EXPECT_FALSE(describe(health, 0, 0).empty());
-            // what is there is used, wherever it is
+            // chunks that are still in the log are used, wherever they are
             const bool lost = what == static_cast<int>(testing::Mischief::dropped) ||
                               what == static_cast<int>(testing::Mischief::foreign_instead);
             EXPECT_GE(health.frames, lost ? 550 : 600);

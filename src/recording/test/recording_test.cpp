@@ -119,8 +119,8 @@ std::vector<std::byte> encoded(const frame::Frame& in) {
     return bytes;
 }
 
-/// The same without a field that differs in the other: `size` bytes from the first difference on,
-/// removed from each of so many items.
+/// The bytes of `in` without a field that differs in `other`: `size` bytes from the first
+/// difference on, removed from each of so many items.
 std::vector<std::byte> without(const frame::Frame& in, const frame::Frame& other, size_t size,
                                size_t items = 1) {
     std::vector<std::byte> bytes = encoded(in);
@@ -135,7 +135,7 @@ std::vector<std::byte> without(const frame::Frame& in, const frame::Frame& other
     return bytes;
 }
 
-/// This program's schema without a line.
+/// This program's schema with the given line removed.
 std::string schema_without(const std::string& line) {
     std::string out = schema();
     return out.erase(out.find(line), line.size() + 1);
@@ -225,7 +225,7 @@ TEST(Decoder, RefusesWhatIsNoSchemaOfFrames) {
           schema_without("sequence int64 1"), schema() + "colour chars 1\n",
           schema() + "colour int7 1\n", schema() + "colour int8[3 1\n",
           schema() + "colour int8[99999999999999999999] 1\n", "  colour int32 1\n" + schema(),
-          // an item's field where no list is
+          // an item's field outside a list
           schema() +
               "marks uint16 count, then each:\n  size int8 1\nhue int8 1\n  colour int8 1\n"}) {
         EXPECT_THROW(FrameDecoder(text, "raw.log"), Error) << text;
@@ -233,7 +233,7 @@ TEST(Decoder, RefusesWhatIsNoSchemaOfFrames) {
 }
 
 TEST(Decoder, TakesNoMemoryForItemsThatAreNotThere) {
-    std::vector<std::byte> bytes = encoded(frame(3));  // without contacts: their number ends it
+    std::vector<std::byte> bytes = encoded(frame(3));  // no contacts, so their number comes last
     bytes[bytes.size() - 1] = bytes[bytes.size() - 2] = std::byte{0xff};
     frame::Frame out;
     EXPECT_FALSE(kDecoder.decode(bytes, head().layout(), out));
@@ -274,7 +274,7 @@ TEST(DeviceRecord, KeepsWhatTheDeviceWasAndReadsThoseOfEarlierVersions) {
     const DeviceRecord again = read(to_yaml(write_fields(record)));
     EXPECT_EQ(again.finger, "index");
     EXPECT_EQ(static_cast<const frame::DeviceInfo&>(again), record);
-    // as log version 2 had it
+    // as log version 2 stored it
     const DeviceRecord old = read(
         "finger: index\nmodel: simulated plant\npeak_force_N: 8.5\norientation: yes\n"
         "peak_torque_Nm: 0\nscale: 2\nsimulated: yes\n");
@@ -359,7 +359,7 @@ TEST(RawLog, GoesOnAfterBytesThatAreNoChunk) {
     const testing::TemporaryFolder folder;
     const std::string whole = log_of_300(folder);
     const size_t second = whole.find("PACK", whole.find("PACK") + 4);
-    // bytes in between, some of which look like a chunk's beginning, and across the reader's blocks
+    // bytes between chunks: some look like a chunk's beginning, and some span the reader's blocks
     for (const size_t length : {1u, 3u, 5u, 65535u, 65536u, 140000u}) {
         std::string junk(length, 'D');
         if (length > 4) junk.replace(length - 5, 4, "PACK");
@@ -373,7 +373,7 @@ TEST(RawLog, WhatIsNotKnownOfABodyAfterAGapIsNaN) {
     const testing::TemporaryFolder folder;
     RawLogWriter writer(folder.file("raw.log"), head());
     std::vector<std::byte> bytes(most_bytes(head().layout(), 8));
-    for (const int i : {0, 1, 4, 5}) {  // body 1 does not change: it may have, in 2 and 3
+    for (const int i : {0, 1, 4, 5}) {  // body 1 does not change, but may have done in 2 and 3
         const size_t size = encode(frame(i), bytes);
         writer.add(std::span(bytes).first(size));
     }
@@ -476,7 +476,7 @@ TEST(RawLog, NeverOverwritesAnother) {
 TEST(RawLog, SaysThatTheDiskIsFull) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
     // /dev/full exists, so creating it fails; a link to it in a folder stands for a disk that fills
-    // later
+    // up later
     const testing::TemporaryFolder folder;
     try {
         RawLogWriter writer("/dev/full", head());
@@ -490,7 +490,7 @@ TEST(Recorder, FlushesEveryFiftyMilliseconds) {
     const testing::TemporaryFolder folder;
     Recorder recorder(folder.file("raw.log"), head(), Writing::in_place);
     for (int i = 0; i <= 500; ++i) recorder.record(frame(i));
-    RawLogReader reader(folder.file("raw.log"));  // while it is being written
+    RawLogReader reader(folder.file("raw.log"));  // while the log is being written
     EXPECT_GE(count(reader), 500 - 50);
 }
 

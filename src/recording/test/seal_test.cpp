@@ -47,7 +47,7 @@ TEST(Seal, FitsWhatWasSealedAndIsKeptBySessionYaml) {
     EXPECT_TRUE(is_sealed(back));
     ASSERT_EQ(back.tables.size(), 3u);
     EXPECT_EQ(back.tables[0].file, "trials.csv");
-    EXPECT_EQ(back.tables[0].rows, 2);  // one of them over two lines
+    EXPECT_EQ(back.tables[0].rows, 2);  // one of them spans two lines
     EXPECT_EQ(back.tables[1].rows, 0);
 }
 

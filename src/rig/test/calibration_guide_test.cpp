@@ -79,7 +79,7 @@ struct Person {
         }
         return {0, 0, 0.02 * side};
     }
-    /// Checks the calibration like a session, on its devices.
+    /// Checks the calibration as a session does, on devices that it makes.
     std::vector<Together> hold_together() {
         now = {};
         const auto fingers = held_fingers(rig);

@@ -212,9 +212,9 @@ TEST(Calibration, WithoutJointAnglesSaysWhatRemains) {
         const Calibration calibration = calibrate(input).calibration;
         const Judged after = judge(rig, &calibration);
         record(seed, judge(rig, nullptr), after, calibration);
-        // ten times worse than with joint angles, and the stated error is not smaller than that. It
-        // is larger when both devices have the same error at one position, but not at the link's
-        // two ends
+        // ten times worse than with joint angles, and the stated error is not smaller than the true
+        // one. It is larger when both devices have the same error at one position, but not at the
+        // link's two ends
         EXPECT_GT(after.agreement.rms, 0.2e-3);
         EXPECT_GT(calibration.agreement_rms, 0.9 * after.agreement.rms);
         EXPECT_LT(calibration.agreement_rms, 2.2 * after.agreement.rms);

@@ -71,7 +71,7 @@ TEST(BodyText, EveryBodyOfEveryShippedSceneMovesAndNothingElseChanges) {
                 without_numbers(text) == without_numbers(after_text)) {
                 EXPECT_EQ(moved(after_text, body.name, {-12.3, 7, -40.1}), text);
             } else {
-                ++added;  // it had no position
+                ++added;  // the body had no position
             }
             ++count;
         }

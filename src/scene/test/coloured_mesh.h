@@ -16,7 +16,7 @@ inline std::string tetrahedron_ply() {
            "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 }
 
-/// The same with colours as an OFF file has them.
+/// The same tetrahedron, with colours as an OFF file contains them.
 inline std::string tetrahedron_off(bool whole) {
     const char* const colours[] = {
         whole ? "255 0 0 255" : "1.0 0 0 1.0", whole ? "0 255 0 255" : "0 1.0 0 1.0",
@@ -27,7 +27,8 @@ inline std::string tetrahedron_off(bool whole) {
         colours[0], colours[1], colours[2], colours[3]);
 }
 
-/// The same as OBJ, of two materials: those of the faces with and without the vertex at z = 20.
+/// The same tetrahedron as OBJ, with two materials: one for the faces with the vertex at z = 20,
+/// and one for the face without it.
 inline std::string tetrahedron_obj(const std::string& library) {
     return library +
            "v 0 0 0\nv 20 0 0\nv 0 20 0\nv 0 0 20\nusemtl old oak\nf 1 3 2\nusemtl steel\n"

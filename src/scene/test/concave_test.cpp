@@ -159,7 +159,7 @@ TEST(Concave, PiecesOfTheFirstVersionAreTakenIfTheyFillTheMesh) {
     std::ofstream(file, std::ios::binary) << good;
     EXPECT_NEAR(volume(files.read(kBody).pieces.hulls), 3e-6, 1e-12);
     EXPECT_EQ(testing::read_file(file), good);
-    // one piece of the two, as the library's faults left them
+    // only one of the two pieces, as left by the library's faults
     std::string lost = kept;
     lost.erase(lost.rfind("piece "), lost.rfind("end ") - lost.rfind("piece "));
     std::ofstream(file, std::ios::binary) << of_first_version(lost);

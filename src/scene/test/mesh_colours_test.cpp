@@ -32,7 +32,7 @@ TEST(MeshColours, AreThoseOfTheFile) {
         EXPECT_EQ(corner_colours(mesh), wanted) << name;
     }
     EXPECT_TRUE(read_mesh("meshes/stone.obj", 1, {}).colours.empty());
-    // the colours of the vertices count, and a missing file gives none
+    // the colours of the vertices are used, and a missing file gives none
     const Mesh both = read_mesh(folder.write("b.obj", "mtllib gone.mtl\n" + obj), 1e-3, {});
     EXPECT_EQ(corner_colours(both), wanted);
     EXPECT_EQ(both.materials, "");
@@ -76,7 +76,7 @@ TEST(MeshColours, OfWhichThereAreNoneLeaveTheMeshAsItIs) {
     for (const char* library : {"", "mtllib\n", "mtllib \n", "mtllib /\n", "mtllib no.mtl\n",
                                 "mtllib bare.mtl\n", "mtllib noise.mtl\n", "mtllib pipe.mtl\n"})
         EXPECT_TRUE(colours(library).empty()) << library;
-    // of one material alone
+    // a materials file with only one of the two materials
     folder.write("half.mtl", "newmtl steel\nKd 1 1 1\n");
     const std::vector<int32_t> half = colours("mtllib half.mtl\n");
     EXPECT_EQ(std::count(half.begin(), half.end(), -1), 3);

@@ -1,4 +1,4 @@
-// Tests of reading meshes through a separate program, which a damaged file may crash.
+// Tests of reading meshes through a separate program, which may crash on a damaged file.
 #include <sys/stat.h>
 
 #include <thread>

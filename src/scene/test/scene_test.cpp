@@ -395,7 +395,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
             "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: [b, "
             "t, b]}\n",
-            "must be two bodies, or one"},
+            "must contain one or two bodies"},
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
             "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: [b], "
             "axis: [0, 0, 0]}\n",
@@ -403,7 +403,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
             "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: [b], "
             "low_deg: 10, high_deg: -10}\n",
-            "is above high"},
+            "is above 'high'"},
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
             "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: [b], "
             "low_mm: 10}\n",
@@ -457,9 +457,9 @@ TEST(SceneFile, ANameThatNoRecordingCanHaveIsAnError) {
                            ", shape: sphere, radius_mm: 4, mass_g: 1}\n");
     };
     EXPECT_EQ(named(200), "");
-    EXPECT_NE(
-        named(201).find("scene.yaml:2: error: name: has 201 bytes. Choose one of at most 200."),
-        std::string::npos);
+    EXPECT_NE(named(201).find(
+                  "scene.yaml:2: error: name: has 201 bytes. Choose a name of at most 200 bytes."),
+              std::string::npos);
 }
 
 /// A scene with this many fingers, and one with this many bodies.

@@ -41,7 +41,7 @@ TEST(Texture, IsScaledWithinItsLimits) {
 
 TEST(ReliefPicture, HasItsBumpWhereItsPixelIs) {
     const ReliefPicture picture = one_bump();
-    // the pixel's middle is 2.5 right of the picture's, and 1.5 above it
+    // the pixel's centre is 2.5 pixels to the right of the picture's, and 1.5 above it
     EXPECT_NEAR(picture.at(2.5, 1.5).height, 4. / 9, 1e-12);
     EXPECT_NEAR(picture.at(2.5, 1.5).rise_x, 0, 1e-12);
     EXPECT_GT(picture.at(2, 1.5).rise_x, 0.1);
@@ -93,7 +93,7 @@ TEST(Texture, OfAPictureLiesOnEachFaceAsItSays) {
     texture.height = 1e-4;
     texture.friction = 0.5;
     texture.picture = std::make_shared<const ReliefPicture>(read_relief(file, {}));
-    // the middle of the last column is 4.5 of ten pixels to the right
+    // the centre of the last column is 4.5 of the ten pixels to the right of the picture's
     const double right = 0.009;
     const double high = 1e-4 * 2 / 3;
     EXPECT_NEAR(texture.at({right, 0.3, 0}, Vec3::UnitZ()).height, high, 1e-12);

@@ -13,7 +13,7 @@ using devices::haply::FakeService;
 using devices::haply::Mischief;
 using std::chrono::milliseconds;
 
-constexpr int kMessage = 150;  // the fingers have closed
+constexpr int kMessage = 150;  // by then the fingers have closed
 constexpr int kAfter = 30;     // ticks to check after a fault
 
 struct Case {

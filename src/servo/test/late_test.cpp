@@ -20,10 +20,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr double kWanted = 1.5;  // on each finger of a hand of 300 N/m through 1000 N/m [N]
-constexpr double kDepth = kWanted * (1 / 300.0 + 1 / 1000.0);  // of the target beyond contact [m]
+constexpr double kWanted = 1.5;  // force of a finger: 300 N/m behind 1000 N/m [N]
+constexpr double kDepth = kWanted * (1 / 300.0 + 1 / 1000.0);  // target's, beyond contact [m]
 
-/// Thumb and index close on a block, or the thumb presses a wall, from 3 cm off within 1 s.
+/// Thumb and index close on a block, or the thumb presses a wall, from 3 cm away within 1 s.
 struct Hold {
     hand::HandSpec hand;
     std::unique_ptr<hand::ScriptDriver> driver;
@@ -96,8 +96,8 @@ struct Hold {
         stiffness = frame.stiffness;
         softest = std::min(softest, stiffness);
     }
-    /// Ticks until `end`, a millisecond apart up to `from` and `apart` from then on, called by the
-    /// devices if they pace; `each` is called after each tick.
+    /// Runs ticks until `end`, a millisecond apart up to `from` and `apart` from then on, called by
+    /// the devices if they pace; `each` is called after each tick.
     void run(Time from, Time apart, Time end, const std::function<void()>& each = {}) {
         const auto next = [&] {
             if (now < from) before = last;
@@ -227,7 +227,7 @@ TEST(Late, TheCouplingComesBackWithoutAStepInForce) {
 }
 
 TEST(Late, AReplayThatAsksForWhatWasInForceIsTheSame) {
-    // provided that its ticks have the same times
+    // this holds if the replay's ticks have the same times
     frame::Settings settings;
     settings.coupling.damping = 2;
     Hold hold(What::block, "real", settings);

@@ -54,7 +54,7 @@ TEST(Lateness, OfTicksThatAreAllLateIsTheirsWithinASecondAndAHalf) {
             EXPECT_LE(last, loop.late.sustained() * (1 + 1e-9));
             last = loop.late.sustained();
         }
-        // all ticks are late by more than half a period; all but one in the window count
+        // all ticks are late by more than half a period; all but one in the window are used
         EXPECT_NEAR(last, by * 1e-3, 0.05e-3 * by) << by;
         loop.tick(milliseconds(1), 3000);
         EXPECT_EQ(loop.late.sustained(), 0) << by;
@@ -67,7 +67,7 @@ TEST(Lateness, CountsEachIntervalByItsLength) {
         loop.tick(milliseconds(21));
         loop.tick(milliseconds(1), 4);
     }
-    // 40 of 21 ms in the last second, one of them forgiven
+    // 40 intervals of 21 ms in the last second, one of them forgiven
     EXPECT_NEAR(loop.late.sustained(), 39 * 21e-3 * 20e-3 / (1 - 21e-3), 1e-4);
 }
 

@@ -96,7 +96,7 @@ TEST_P(MakersFaults, TakeAllForceAwayInTheTickThatLearnsOfThem) {
                 ASSERT_TRUE(finger.p_WH.allFinite());
                 ASSERT_TRUE(finger.f_sent_W.allFinite());
             }
-            // the fault happens between a reading and its force: the next reading finds it
+            // the fault happens between a reading and its force: the next reading detects it
             if (frame.sequence <= kTick) return;
             ++after;
             EXPECT_NE(frame.status & kForceOff, 0u) << frame.sequence;
@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"DHD broken", "forcedimension", [](Grasp& g) { g.dhd->devices[0].broken = true; },
              FaultKind::device_fault, kDeviceFault, "reports a fault of its own. Let it cool"}));
 
-/// Tests a device that cuts its own force: the others wait for it, and all return gently.
+/// Tests a device that cuts its own force: the others' forces wait for it, and all return gently.
 class ForceCut : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ForceCut, LeavesNoHalfGraspAndComesBackSoftly) {
@@ -222,7 +222,7 @@ TEST_P(Late, By5MsIsAnOverrun) {
 TEST_P(Late, By50MsTakesAllForceAway) {
     Grasp grasp(GetParam());
     run(grasp, milliseconds(50), [&](const frame::Frame& frame) {
-        if (frame.sequence < kTick) return;  // frames count from 0, blocking ones from 1
+        if (frame.sequence < kTick) return;  // numbered from 0, blocking ticks from 1
         EXPECT_NE(frame.status & kForceOff, 0u) << frame.sequence;
         EXPECT_EQ(grasp.acting(0), 0);
         EXPECT_EQ(grasp.acting(1), 0);

@@ -1,5 +1,5 @@
-// Tests the torque of a tool that is stopped, through fakes of the manufacturers' libraries with
-// the simulated hand behind them: it equals that of simulated devices.
+// Tests that the torque of a tool that is stopped equals that of simulated devices, through fakes
+// of the manufacturers' libraries with the simulated hand behind them.
 #include <gtest/gtest.h>
 
 #include "devices/test/fakes.h"

@@ -1,5 +1,5 @@
 // Tests devices that measure orientation and render torque: their use in the tick, and that every
-// rule of safety applies to torque as to force.
+// safety rule applies to torque as to force.
 #include <gtest/gtest.h>
 
 #include "planted_group.h"

@@ -120,7 +120,7 @@ TEST(Perturbation, FrictionOfAFixedBodyWakesWhatRestsOnItAndLetsItSlide) {
     Desk desk(true, 0.5);
     for (int i = 0; i < 1000; ++i) desk.tick();
     EXPECT_EQ(desk.tick().bodies[1].awake, 0);
-    const double force = 0.8;  // too little for the whole coefficient
+    const double force = 0.8;  // too little to overcome the whole friction
     frame::PropertiesFrame slippery;
     slippery.body = 0;
     slippery.friction_scale = 0.5;

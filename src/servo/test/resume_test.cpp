@@ -7,7 +7,7 @@
 namespace dihaptic::servo::resume_test {
 namespace {
 
-/// A cause that ends force, and the planted event that produces it.
+/// A reason for force to end, and the planted event that produces it.
 struct Cause {
     const char* name;
     haptics::FaultKind kind;

@@ -1,4 +1,5 @@
-// Tests each rule of safety in the whole servo: its trigger, and the force on the hand then.
+// Tests each safety rule in the whole servo: what triggers it, and the force on the hand
+// afterwards.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,7 +73,7 @@ hand::HandSpec pressing_hand(double start, double end) {
 TEST(Safety, AForceHeldTooLongFallsToTheContinuousOneSmoothly) {
     frame::Settings settings;
     settings.safety.heating_time = 1;
-    // 10 mm through 300 and 1000 N/m in series are 2.3 N; later the depth that 1.4 N allow
+    // 10 mm through 300 and 1000 N/m in series are 2.3 N, which then falls to 1.4 N
     Session session(wall(), pressing_hand(-0.01, 0.01), settings,
                     "continuous_force_N: 1.4\nworkspace_mm: [500, 500, 500]\n");
     uint32_t status = 0;
@@ -97,7 +98,8 @@ TEST(Safety, AForceHeldTooLongFallsToTheContinuousOneSmoothly) {
 TEST(Safety, AHandThatLeavesTheWorkspaceIsPushedBack) {
     scene::Scene scene = wall();
     scene.bodies[0].position.x() += 10;
-    // the box ends at x = 50 mm; the hand's target is 30 mm further, and 300 and 500 N/m share them
+    // the box ends at x = 50 mm; the hand's target is 30 mm beyond, shared by springs of 300 and
+    // 500 N/m
     Session session(scene, pressing_hand(0.0025, 0.0825), {}, "workspace_mm: [100, 500, 500]\n");
     const frame::Frame* frame = nullptr;
     for (int i = 0; i < 1500; ++i) {
@@ -175,7 +177,7 @@ TEST(Safety, ForceIsOnOnlyWhileTheDeadManSwitchIsHeld) {
         if (i == 499) {
             ASSERT_GT(force.norm(), 0.5);
         }
-        if (i >= 600 && i < 1000) {  // from zero up, a five-hundredth per tick
+        if (i >= 600 && i < 1000) {  // rises from zero by a five-hundredth per tick
             const double share = (i - 600) / 500.0;
             ASSERT_NEAR((force - share * frame.fingers[0].f_asked_W).norm(), 0, 1e-9) << i;
             ASSERT_NE(frame.status & kSoftStarted, 0u) << i;
@@ -323,8 +325,8 @@ INSTANTIATE_TEST_SUITE_P(
                                 kPremium, frame::PointFriction::apart}));
 
 TEST(EnergyGuard, TellsThatSlowDynamicsFindAFastHandLate) {
-    // a world that steps every 10 ms is calm in a grasp; at 0.6 m/s a wall is found up to 6 mm
-    // late, which is then given back: at most k / 2 (6 mm)^2 = 36 mJ
+    // a world that steps every 10 ms is calm in a grasp; at 0.6 m/s a wall is detected up to 6 mm
+    // late, and the energy of this depth is given back: at most k / 2 (6 mm)^2 = 36 mJ
     frame::Settings settings;
     settings.dynamics.every = 10;
     const Energy grasp = observe(block_on_table(), lifting_hand(), settings);

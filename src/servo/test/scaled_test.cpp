@@ -1,4 +1,4 @@
-// Tests a rig with a scaled workspace: a wall of the scene under the hand, and in the world.
+// Tests a rig with a scaled workspace: a wall of the scene as felt by the hand, and in the world.
 #include <gtest/gtest.h>
 
 #include "lift.h"
@@ -8,7 +8,7 @@
 namespace dihaptic::servo::scaled_test {
 namespace {
 
-constexpr double kStiffness = 800;  // of the coupling, and so of the wall [N/m]
+constexpr double kStiffness = 800;  // stiffness of the coupling, and so of the wall [N/m]
 
 /// A finger that presses on a table with its target below it.
 class PressDriver final : public hand::Driver {
@@ -29,10 +29,10 @@ class PressDriver final : public hand::Driver {
 
 /// The hand's rest position, and the force on it there.
 struct Rest {
-    double world_depth = 0;  // of the handle below the proxy, in the world [m]
+    double world_depth = 0;  // depth of the handle below the proxy, in the world [m]
     double world_force = 0;  // [N]
     double hand_depth = 0;   // depth of the hand's own movement [m]
-    double hand_force = 0;   // of the hand's spring [N]
+    double hand_force = 0;   // force of the hand's spring [N]
     uint32_t status = 0;
 };
 
@@ -85,7 +85,7 @@ TEST(ScaledRig, WallIsAsStiffUnderTheHandAndInTheWorldAsTheSceneSays) {
         EXPECT_NEAR(rest.hand_force / rest.hand_depth, kStiffness, 0.01 * kStiffness) << scale;
         // the hand feels the world's force divided by the scale
         EXPECT_NEAR(rest.hand_force * scale / rest.world_force, 1, 0.01);
-        // and cannot detect the scale
+        // the hand cannot detect the scale
         EXPECT_NEAR(rest.hand_force / plain.hand_force, 1, 0.01);
         EXPECT_NEAR(rest.hand_depth / plain.hand_depth, 1, 0.01);
         EXPECT_EQ(rest.status & (kEnergyGenerated | kForceLimited | kTooFast), 0U);

@@ -78,8 +78,8 @@ TEST_P(TwoPoints, LiftABlockAndMeasureTheGrasp) {
     double momentum = 0;
     Vec3 impulse = Vec3::Zero();
     const frame::Frame& frame = grasp.run(0, 1.1, [&](const frame::Frame& f) {
-        // the block gets the same force as the hands, for apart points in the next step; equal
-        // from both sides
+        // the block gets the same force as the hands (for apart points, one step later), equal from
+        // both sides
         momentum = f.bodies[1].v_WB.x() * 0.1;
         if (apart()) {
             EXPECT_NEAR(impulse.x(), momentum, 1e-6);
@@ -140,7 +140,7 @@ TEST(Servo, TheForceWrittenBelongsToThePositionRead) {
 
 TEST(Servo, IsTheSameWhereverTheDevicesStand) {
     Grasp here;
-    Grasp there;  // the second device of both is turned: compare the fingers with each other
+    Grasp there;  // the second device is turned, so compare the fingers with each other
     const frame::Frame& frame = here.run(0, 1.1);
     EXPECT_NEAR(frame.fingers[0].f_sent_W.x(), -frame.fingers[1].f_sent_W.x(), 1e-6);
     EXPECT_NEAR(frame.fingers[0].f_sent_W.z(), frame.fingers[1].f_sent_W.z(), 1e-6);
@@ -433,11 +433,11 @@ TEST(Run, RealTimeKeepsPhaseAfterAnOverrun) {
         EXPECT_GE(frame.lateness, 0);
         recorded += (frame.status & kOverrun) != 0;
         if (i == 0) continue;
-        EXPECT_GE(zero + frame.time, seen[i - 1].ended);  // no burst: each waits for its time
+        EXPECT_GE(zero + frame.time, seen[i - 1].ended);  // no burst: each tick waits for its time
         EXPECT_EQ((frame.status & kOverrun) != 0,
                   frame.time - seen[i - 1].frame.time > grasp.servo->period());
     }
-    // the overrun of the last tick has no frame to be recorded in
+    // there is no frame in which the overrun of the last tick could be recorded
     EXPECT_LE(timing.overruns - recorded, 1);
     EXPECT_EQ(timing.ticks.count(), seen.size());
     EXPECT_EQ(timing.lateness.count(), seen.size());

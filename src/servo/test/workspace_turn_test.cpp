@@ -58,7 +58,7 @@ struct Air {
     Desk* desk = nullptr;
     std::unique_ptr<Servo> servo;
     Time next{0};
-    Time period = std::chrono::milliseconds(1);  ///< at which ticks come; the servo's is 1 ms
+    Time period = std::chrono::milliseconds(1);  ///< of the ticks; the servo's is 1 ms
 
     explicit Air(bool orientation = false, const frame::Settings& settings = {}) {
         for (const char* name : {"thumb", "index"}) {
@@ -133,7 +133,7 @@ TEST(WorkspaceTurn, IsBoundedWhoeverOrdersIt) {
 }
 
 TEST(WorkspaceTurn, ReadingsTurnAboutTheDevicesMiddle) {
-    // the rate that leads to a Frame is recorded in the Frame before
+    // the rate that leads to a Frame is recorded in the previous Frame
     Air turning(true);
     double led = 0;
     std::vector<Vec3> before(2);
@@ -295,7 +295,7 @@ TEST_P(AnyHand, HoldsABlockWhileTheWorkspaceTurnsByARightAngle) {
     frame::Settings settings;
     settings.proxy.kind = GetParam().proxy;
     settings.coupling.kind = GetParam().coupling;
-    // stiffer, it shakes blocks loose with or without a turn
+    // a stiffer coupling shakes blocks loose with or without a turn
     if (settings.coupling.kind == frame::CouplingKind::dual_spring)
         settings.coupling.stiffness = 300;
     Held held(settings);

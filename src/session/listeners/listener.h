@@ -52,14 +52,15 @@ class Listener {
     Listener(const Listener&) = delete;
     Listener& operator=(const Listener&) = delete;
 
-    /// In the tick, before the orders of the trials: passes on what a person or program requests.
-    /// Neither waits nor allocates.
+    /// Called in the tick, before the orders of the trials: passes on what a person or program
+    /// requests. Neither waits nor allocates.
     virtual void steer(const Steering& /*steering*/) noexcept {}
-    /// In the tick, once its Frame is made. On the real clock it neither waits nor allocates.
+    /// Called in the tick, once its Frame is made. On the real clock it neither waits nor
+    /// allocates.
     virtual void take(const frame::Frame& frame) noexcept = 0;
     /// Whether the session must end; called in the tick and from other threads.
     virtual bool ends() const noexcept { return false; }
-    /// After the last tick: returns messages for the session's notes. Throws Error when the
+    /// Called after the last tick: returns messages for the session's notes. Throws Error when the
     /// session's record is not complete.
     virtual std::vector<std::string> finish() { return {}; }
 };

@@ -16,7 +16,7 @@ void Live::prepare(const servo::Servo& servo, const scene::Scene& scene) {
 }
 
 /// Every tick is somewhat late, so the earliest zero is the best estimate. A pause, in which
-/// session time stands still, moves the zero.
+/// session time stands still, makes the zero later.
 void Live::note_zero(Time now) noexcept {
     constexpr Clock::rep kPause = std::chrono::nanoseconds(std::chrono::milliseconds(50)).count();
     const Clock::rep zero = (Clock::now().time_since_epoch() - now).count();

@@ -53,7 +53,7 @@ class Live : public Listener {
     /// Shortest time between samples of the curves.
     static constexpr Time kCurveInterval = std::chrono::milliseconds(10);
 
-    Latest<frame::Frame> frame;  ///< the newest; its `sequence` is -1 before the first
+    Latest<frame::Frame> frame;  ///< the newest frame; its `sequence` is -1 before the first one
     /// If set before the session starts: the frame for a second thread, such as a headset's.
     std::shared_ptr<Latest<frame::Frame>> second;
     /// While set, time stands still. On the real clock no force acts, from the next tick on, and a
@@ -131,11 +131,11 @@ class Live : public Listener {
     std::string folder_;
 
     std::atomic<Clock::rep> zero_{
-        std::numeric_limits<Clock::rep>::max()};    // of the session's clock
-    ValueRing<recording::Showing> showings_{4000};  // a minute's worth
+        std::numeric_limits<Clock::rep>::max()};    // zero of the session's clock
+    ValueRing<recording::Showing> showings_{4000};  // one minute of showings
     ValueRing<recording::HeadSeen> heads_{4000};
-    int64_t shown_tick_ = -1;              // window's thread: last tick in a headset
-    ValueRing<CurveSample> samples_{400};  // a window that hangs for longer has a gap in its curves
+    int64_t shown_tick_ = -1;              // used by the window's thread: last tick in a headset
+    ValueRing<CurveSample> samples_{400};  // if the window hangs for longer, its curves have a gap
     ValueRing<TrialEnd> trial_ends_{400};
     TrialEnd trial_;  // the running attempt
     int object_ = -1;

@@ -41,7 +41,7 @@ namespace {
 using Json = nlohmann::json;
 using Wall = std::chrono::steady_clock;
 
-constexpr Time kInterval = std::chrono::milliseconds(2);  // shortest, between frames
+constexpr Time kInterval = std::chrono::milliseconds(2);  // shortest interval between frames
 constexpr int kBusy = 2, kIdle = 50;  // interval of checks, for frames and for newcomers [ms]
 constexpr auto kLastPatience =
     std::chrono::seconds(1);                   // patience with readers after the session's end
@@ -56,7 +56,7 @@ struct Refusal {
     std::string why;
 };
 
-/// An unpredictable name: another user would otherwise take it first.
+/// An unpredictable name: another user could otherwise take it first.
 std::string fresh_name() {
     std::array<unsigned char, 16> chance{};
     if (getrandom(chance.data(), chance.size(), 0) != static_cast<ssize_t>(chance.size()))
@@ -73,9 +73,9 @@ Error cannot_be_watched(const std::string& why) {
                  "The session runs nevertheless.");
 }
 
-/// The socket's address is abstract: a killed program leaves none behind that is in the way, and
-/// the folder may be on any file system, with a path of any length. A file of this user contains
-/// the name.
+/// The socket's address is abstract: no leftover of a killed program is ever in the way, and the
+/// folder may be on any file system, with a path of any length. A file of this user contains the
+/// name.
 class Listening {
   public:
     explicit Listening(const std::string& folder)
@@ -193,7 +193,7 @@ class Observers : public Listener {
     const scene::Scene& scene_;
     const std::string folder_;
     const bool real_;
-    const bool knobs_elsewhere_;  // the window turns them
+    const bool knobs_elsewhere_;  // only the window turns them
     std::vector<std::string> states_;
     std::vector<std::string> outcomes_;
 

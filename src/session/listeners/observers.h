@@ -20,12 +20,13 @@
 //   session  {"refused": "..."}
 //   session  {"over": true}
 //
-// Moments arrive repeatedly, in real time; a refusal gives the reason and the remedy.
+// Messages about moments arrive repeatedly, in real time; a refusal gives the reason and the
+// remedy.
 //
 // Observers can watch any expression of recorded quantities (task/run/recorded.h). Knobs have the
 // names and units of the log's columns. A slow reader misses moments, but no end of an attempt, and
-// delays no other program: the tick copies its frame for the thread that does all this, and only
-// while a program is watching.
+// delays no other program: the tick copies its frame for the thread that serves the observers, and
+// only while a program is watching.
 #pragma once
 
 #include "session/listeners/listener.h"

@@ -6,8 +6,8 @@
 
 namespace dihaptic::session {
 
-/// Null without outlets, and on the virtual clock: a rehearsal must not look like a session. Throws
-/// Error when an outlet cannot be opened.
+/// Null without outlets, and on the virtual clock, because a rehearsal must not look like a
+/// session. Throws Error when an outlet cannot be opened.
 std::unique_ptr<Listener> open_outlets(const Opening& opening);
 
 }  // namespace dihaptic::session

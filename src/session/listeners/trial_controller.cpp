@@ -118,7 +118,7 @@ struct TrialController::Parts {
     std::function<void(const std::string&)> waiting;
     std::chrono::steady_clock::time_point asked_at;
     std::chrono::steady_clock::duration
-        told_after{};  // from asked_at; zero: the question has been answered
+        told_after{};  // counted from asked_at; zero: the question has been answered
     std::atomic<bool> ended{false};
     std::thread thread;
 

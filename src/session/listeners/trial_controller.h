@@ -1,6 +1,6 @@
-// TrialController lets another program decide between a session's trials: a script that receives
-// each attempt's outcome, and sets the task's variables, chooses the next trial, or shows a
-// message. That program listens on a UNIX socket; the package dihaptic for Python does
+// TrialController lets another program control the course of a session's trials: a script that
+// receives each attempt's outcome, and sets the task's variables, chooses the next trial, or shows
+// a message. That program listens on a UNIX socket; the package dihaptic for Python does
 // (docs/python.md). It must belong to this user, or to root. Both sides send lines of JSON:
 //
 //   it       {"messages": ["Slower"]}
@@ -10,7 +10,7 @@
 //   it       {"number": 8, "set": {"force_N": 1.5}, "next": 12, "message": 0}
 //   it       {"number": 8, "failed": "division by zero"}
 //
-// The first line lists the messages that the program may show, and comes at once; any of an
+// The first line lists the messages that the program may show, and is sent at once; any of an
 // answer's last three keys may be missing.
 //
 // Question 1, on trial 0, comes before the first trial. Decisions are recorded as values of

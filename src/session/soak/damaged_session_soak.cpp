@@ -1,4 +1,4 @@
-// Thousands of damaged sessions: none may count as complete, and none may crash its reader.
+// Tests thousands of damaged sessions: none must count as complete, and none must crash its reader.
 #include "session/test/damaged_session.h"
 
 namespace dihaptic::session {

@@ -9,7 +9,7 @@
 
 namespace dihaptic::session {
 
-/// Expects as well that the task is done within `longest` [s]. `between`: decides between trials.
+/// Also expects that the task is done within `longest` [s]. `between`: controls the trials.
 inline void expect_no_allocation(const Plan& plan, double longest,
                                  task::TrialControl* between = nullptr) {
     const auto servo = make_servo(plan);

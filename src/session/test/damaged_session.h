@@ -1,5 +1,5 @@
-// Passes sessions with damaged files to everything that reads them: what is wrong must be reported,
-// or refused with an Error, and nothing else thrown.
+// Passes sessions with damaged files to everything that reads them: faults must be reported, or
+// refused with an Error, and nothing else must be thrown.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -62,8 +62,8 @@ class TwoSessions {
     std::vector<std::string> logs_;
 };
 
-/// Each mischief, `cases` times: recover never calls the log complete, a replay never passes, and
-/// report and export say what is wrong.
+/// Inflicts each kind of damage `cases` times, and expects that recover never calls the log
+/// complete, a replay never passes, and report and export say what is wrong.
 inline void expect_all_tell(int cases) {
     const TwoSessions sessions;
     {
@@ -83,7 +83,8 @@ inline void expect_all_tell(int cases) {
             EXPECT_TRUE(recovery.figures.log.damaged(recovery.info.ticks));
             EXPECT_EQ(session.read_info().state, recording::SessionState::recovered);
             EXPECT_FALSE(session.read_info().notes.empty());
-            // a recovered session has no end, so a log whose records are all there can be replayed
+            // a recovered session needs no end mark, so a log whose records are all there can be
+            // replayed
             const recording::LogHealth& left = recovery.figures.log;
             if (left.complete || !left.gaps.empty() || !left.strays.empty()) {
                 EXPECT_FALSE(replay_session(session.path(), kGoOn, {}).good());
@@ -99,7 +100,7 @@ inline void expect_all_tell(int cases) {
     }
 }
 
-/// Calls everything that reads a session. An Error is an answer; anything else that is thrown is a
+/// Calls everything that reads a session. An Error is acceptable; anything else that is thrown is a
 /// failure.
 inline void read_all_ways(const std::string& path, const std::string& study) {
     const auto attempt = [](const char* what, const std::function<void()>& read) {
@@ -144,7 +145,7 @@ inline void expect_mutated_files_are_borne(int cases, uint64_t first_seed) {
         std::string text =
             fs::exists(copy + "/" + name) ? testing::read_file(copy + "/" + name) : "a,b\n1,2\n";
         if (name == "raw.log") {
-            // a part of it is enough, and quicker; longer files would be kept
+            // a part of the log is enough, and quicker; files that cover more than it would be kept
             auto chunks = testing::take_apart(text);
             chunks.erase(chunks.begin() + 12, chunks.end() - 1);
             text = testing::crafted(testing::put_together(chunks), random);
@@ -156,7 +157,7 @@ inline void expect_mutated_files_are_borne(int cases, uint64_t first_seed) {
         std::ofstream(copy + "/" + name, std::ios::binary) << text;
         const std::string checked = i % 2 == 0 ? name : "";
         if (!checked.empty() && name != "raw.log" && name != "session.yaml") {
-            // also with a checksum that matches the changed file, as if nothing had changed
+            // gives the changed file a matching checksum, as if nothing had changed
             auto info = recording::SessionFolder::open(result.folder).read_info();
             for (recording::InputFile& input : info.inputs) {
                 if (input.file == name) input = recording::SessionFolder::open(copy).input(name);

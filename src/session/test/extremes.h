@@ -162,7 +162,7 @@ inline std::string words(const Request& request) {
 }
 
 /// Runs the first `longest` of a session, without its files. In every tick, forces must be ones
-/// that devices may be sent; otherwise the session has not ended in order.
+/// that may be sent to devices; otherwise the session counts as crashed.
 inline Ending run_extreme(const Request& request, Time longest) {
     const Plan plan = make_plan(request);
     const auto servo = make_servo(plan);

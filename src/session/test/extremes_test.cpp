@@ -1,4 +1,4 @@
-// Tests extreme settings and changed files: each is refused with an error, or ends in order.
+// Tests extreme settings and changed files: each is refused with an error, or ends properly.
 #include "extremes.h"
 
 namespace dihaptic::session::extremes_test {

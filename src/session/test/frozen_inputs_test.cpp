@@ -171,7 +171,7 @@ TEST(FrozenInputs, AChangedTableOfASessionIsNotResumed) {
     EXPECT_NE(said.find("when the session ended. Rebuild it from raw.log: dihaptic recover"),
               std::string::npos)
         << said;
-    // the window nevertheless offers to continue it, and then says this
+    // the window nevertheless offers to continue the session, and then shows this message
     EXPECT_EQ(find_unfinished(sessions.files.folder.file("sessions"), "Reaches", "S07").size(), 1u);
     analysis::recover_session(recording::SessionFolder::open(cut), {});
     EXPECT_NO_THROW(rest_of(cut, Seat::terminal, {}));

@@ -1,4 +1,4 @@
-// Tests that a session keeps the looks of its bodies, also when it is resumed.
+// Tests that a session keeps the looks of its bodies, even when it is resumed.
 #include <algorithm>
 #include <filesystem>
 

@@ -18,7 +18,8 @@ namespace dihaptic::session::golden_test {
 namespace {
 
 constexpr const char* kFile = "src/session/test/golden.txt";
-/// Ticks run of each file, and of those whose many contacts make the slowest solvers take minutes.
+/// Number of ticks run of each file, and of files whose many contacts make the slowest solvers take
+/// minutes.
 constexpr int64_t kTicks = 3000;
 constexpr int64_t kFewTicks = 300;
 

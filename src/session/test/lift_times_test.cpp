@@ -1,5 +1,6 @@
 // Tests the times of grip-lifts against the raw frames, from 40 g to 1 kg, on three surfaces, with
-// grips that hardly hold and that crush: by contact they are right to 2 ms, by force they are not.
+// grips that hardly hold and grips that crush: found by contact they are right to 2 ms, found by
+// force they are not.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -195,7 +195,7 @@ TEST(Live, AfterAFaultTheSessionWaitsAndTheTrialIsDoneAgainOnceItGoesOn) {
     Files files;
     files.replace("hand: { centre_mm: [0, 0, 120] }",
                   "hand: { centre_mm: [0, 0, 120] }\nsettings: { safety: { max_speed_m_s: 0.2 } }");
-    // a reach of 50 mm in 0.2 s is faster than that; in 0.8 s it is not
+    // a reach of 50 mm in 0.2 s exceeds this speed; in 0.8 s it does not
     Desk desk(files.request());
     std::string told;
     for (int i = 0; i < 10000 && told.empty(); ++i) {
@@ -348,7 +348,7 @@ class LiveOutlet : public ::testing::TestWithParam<std::string> {
         allow_library(fallible->options());
     }
     void TearDown() override { unsetenv("XDG_CONFIG_HOME"); }
-    /// The user's own list has the fake library, if the outlet is one of a library.
+    /// Puts the fake library on the user's own list, if the outlet uses a library.
     void allow_library(const std::string& options) {
         const Node node = parse_yaml(options, "options");
         const Node* const library = node.find("library");
@@ -422,14 +422,14 @@ TEST(Live, EasesWhatHoldsSomethingAndTurnsTheRestAtOnce) {
     EXPECT_TRUE(std::isnan(now.damping));
     EXPECT_EQ(now.smoothing, 0.5);
     EXPECT_EQ(now.proxy, scene::ProxyKind::rigid);  // the session does not allow changes
-    wanted.friction_scale = 2;                      // on the way, which does not start again
+    wanted.friction_scale = 2;                      // midway; the ramp does not restart
     live.knobs.publish(wanted);
     turn(1);
     EXPECT_EQ(now.friction_scale, 2);
     EXPECT_NEAR(now.stiffness, 1505, 1e-6);
     turn(100);
     EXPECT_EQ(now.stiffness, 2000);
-    wanted.damping = 3;  // from k h / 2, which is not given as a number
+    wanted.damping = 3;  // before, it was NaN, which stands for k h / 2
     live.knobs.publish(wanted);
     turn(1);
     EXPECT_EQ(now.damping, 3);

@@ -55,7 +55,7 @@ TEST(LoadChecks, SayNothingOfLoadsThatAreHeld) {
 TEST(LoadChecks, CompareStiffnessAndDampingWithTheLoop) {
     expect_said(said_of("kind: spring, on: index, about: start, stiffness_N_m: 9000"),
                 "a spring load of 9000 N/m is above 6000 N/m (2 b / T)");
-    // the age of its inputs counts twice, as a device's delay does
+    // the age of its inputs enters twice, as a device's delay does
     expect_said(said_of("kind: channel, on: index, from: start, to: target, stiffness_N_m: 1000, "
                         "delay_ms: 10"),
                 "a channel load of 1000 N/m is above 286 N/m (2 b / T)");

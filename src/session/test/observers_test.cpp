@@ -111,7 +111,7 @@ TEST(Observers, EndASessionThatIsPaused) {
         while (folder.empty()) {
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
             for (const auto& entry : std::filesystem::directory_iterator(out.path())) {
-                // its socket listens once the file has its name
+                // the session's socket listens once the file contains its name
                 std::error_code none;
                 const auto size = std::filesystem::file_size(entry.path() / "observers", none);
                 if (!none && size > 0) folder = entry.path();

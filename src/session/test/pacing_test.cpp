@@ -43,7 +43,7 @@ struct Watched {
         if (thread.joinable()) thread.join();
     }
     int64_t tick() { return live.frame.read().sequence; }
-    /// Waits until something holds, ten seconds at most.
+    /// Waits until a condition holds, for ten seconds at most.
     template <class Condition>
     bool until(const Condition& condition) {
         for (int i = 0; i < 10000; ++i) {
@@ -61,7 +61,7 @@ TEST(Pacing, KeepsThePaceThatIsAskedFor) {
     session.start();
     session.join();
     const double took = std::chrono::duration<double>(Wall::now() - begin).count();
-    // no more can be said on a busy machine: it may be slower
+    // there is no upper bound, because a busy machine may be slower
     EXPECT_GE(took, session.result.simulated / 5 - 0.05);
     EXPECT_GT(session.result.simulated, 1);
 }

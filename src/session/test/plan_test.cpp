@@ -31,7 +31,8 @@ TEST(ShippedFiles, AreInOrder) {
             Diagnostics diagnostics;
             EXPECT_NE(check_file(file, diagnostics).what, "unknown");
             for (const Problem& p : diagnostics.problems()) {
-                // what simulated people cannot judge can still be rehearsed: its file says so
+                // simulated people can rehearse a file that is beyond their judgement, if it says
+                // so
                 const bool arbitrary =
                     p.severity == Severity::warning &&
                     p.text().find("do not treat its figures as human data") != std::string::npos;
@@ -54,7 +55,7 @@ TEST(ShippedFiles, TheMovementHasTheFaultsThatItIsToShow) {
     }
 }
 
-/// An experiment with its files, and the messages of planning it.
+/// An experiment with its files, and the messages from planning it.
 struct Files {
     testing::TemporaryFolder folder;
     std::string scene =
@@ -125,7 +126,7 @@ TEST(Plan, StiffnessAndDampingMayBeSharesOfWhatTheDeviceRenders) {
         std::string::npos)
         << plan.origins["coupling.stiffness"];
     EXPECT_EQ(plan.origins.count("coupling.stiffness_share"), 0u);
-    // a later setting counts, whether it is a value or a share
+    // the later setting takes effect, whether it is a value or a share
     Request request = files.request();
     request.set = {"coupling.stiffness_N_m=700"};
     EXPECT_EQ(make_plan(request).settings.coupling.stiffness, 700);
@@ -196,7 +197,7 @@ TEST(Plan, WarnsOfTurningStiffnessThatTheLoopCannotHold) {
 TEST(Plan, RefusesTorqueFromADeviceThatDoesNotMeasureOrientation) {
     Files files;
     files.rig = "devices:\n  - {finger: thumb, backend: simulated, options: {peak_torque_Nm: 1}}\n";
-    EXPECT_NE(files.messages().find("a device that renders torque measures orientation. Add "
+    EXPECT_NE(files.messages().find("a device that renders torque must measure orientation. Add "
                                     "orientation: yes, or leave out peak_torque_Nm."),
               std::string::npos)
         << files.messages();
@@ -258,7 +259,7 @@ TEST(Plan, SaysWhichWeightsAndSurfacesADeviceCannotRender) {
     const size_t at_most = said.find("8.5 N that simulated premium_1_0 gives at most");
     ASSERT_NE(for_long, std::string::npos) << said;
     ASSERT_NE(at_most, std::string::npos) << said;
-    // W / (2 mu) and W / 2 together, by hand
+    // W / (2 mu) and W / 2 together, calculated by hand
     EXPECT_GT(said.find("block of 800 g with friction 0.35 (11.9 N)"), at_most) << said;
     EXPECT_LT(said.find("block of 800 g with friction 0.35 (11.9 N)"), for_long) << said;
     EXPECT_NE(said.find("block of 400 g with friction 0.7 (3.4 N)", for_long), std::string::npos);

@@ -69,7 +69,7 @@ struct Loss {
         std::this_thread::sleep_for(std::chrono::milliseconds(730));
         disk.lose_power(folder.path(), folder.file("after"));
         const auto last_sync = disk.last_sync(running + "/raw.log");
-        written = frames_in(running);  // the session goes on while they are counted
+        written = frames_in(running);  // the session continues while its frames are counted
         unsynced = std::chrono::duration<double>(Disk::Clock::now() - last_sync).count();
         session.join();
         const std::string sessions = folder.file("after/new/sessions");

@@ -77,7 +77,7 @@ struct Files {
         ASSERT_NE(at, std::string::npos) << what;
         experiment.replace(at, what.size(), by);
     }
-    /// Leaves two trials: all of them take twelve seconds of the real clock.
+    /// Keeps only two trials, because all of them take twelve seconds on the real clock.
     void keep_first_block() { experiment.resize(experiment.find("    - { name: turned")); }
     Request request(uint64_t seed = 1, const std::string& participant = "S01") {
         folder.write("scene.yaml", scene);

@@ -44,7 +44,7 @@ TEST(Readiness, SaysWhenACalibrationOrARegistrationIsOldOrMissing) {
     EXPECT_FALSE(of(all, "calibration").good);
     EXPECT_EQ(of(all, "calibration").found, "of 2026-09-01, 85 days ago");
     EXPECT_EQ(of(all, "calibration").remedy, Remedy::calibrate);
-    EXPECT_TRUE(of(all, "display mirror").good);  // of a simulated rig
+    EXPECT_TRUE(of(all, "display mirror").good);  // the rig is simulated
     plan.rig.calibrated->date = "2026-11-20";
     plan.rig.displays[0].registered.emplace().date = "2026-01-01";
     plan.rig.displays[0].registered->rms = 0.4e-3;

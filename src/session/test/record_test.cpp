@@ -120,7 +120,7 @@ TEST(Record, TellsOfWhatDoesNotBalanceWhereverTheSessionIsReadAgain) {
     const testing::TemporaryFolder folder;
     std::string scene = testing::read_file("scenes/block-on-table.yaml");
     const std::string rests = "position_mm: [0, 0, 20]";
-    scene.replace(scene.find(rests), rests.size(), "position_mm: [0, 0, 5]");  // in the table
+    scene.replace(scene.find(rests), rests.size(), "position_mm: [0, 0, 5]");  // inside the table
     Request request;
     request.file = folder.write("sunk.yaml", scene);
     RunOptions options;

@@ -81,7 +81,7 @@ TEST(Rest, IsDoneOnce) {
     const Rest one = rest_of(cut, Seat::terminal, {});
     const Rest other = rest_of(cut, Seat::terminal, {});
     const std::string next = sessions.files.run(one.plan).folder;
-    // one that was about to continue it, and one that comes later
+    // one program that was about to resume the session, and one that comes later
     const auto told = [&](const auto& tried) -> std::string {
         try {
             tried();

@@ -34,7 +34,7 @@ struct Files {
         request.file =
             folder.write("experiment.yaml", "title: One\nscene: scene.yaml\n" + safety(experiment));
     }
-    /// The error of planning; "" if there is none.
+    /// The error from planning; "" if there is none.
     std::string refusal() const {
         try {
             make_plan(request);

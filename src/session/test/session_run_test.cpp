@@ -332,7 +332,7 @@ TEST(Session, TheRigsWallKeepsHandsInAndReplays) {
     };
     const auto wide = run_and_replay("{workspace_mm: [600, 600, 600]}", {});
     EXPECT_EQ(status_of(wide) & kPushedInward, 0u);
-    // a wall in place of the box that the devices say they reach
+    // a wall in place of the workspace that the devices state
     const auto low =
         run_and_replay("{workspace_mm: [600, 600, 600]}", {"safety.workspace_stiffness_N_m=2000"},
                        "wall: {centre_mm: [0, 0, 10], size_mm: [600, 600, 80]}\n");
@@ -380,7 +380,7 @@ TEST(Session, ThreeFingersLiftABlockAndGripItAsEachSideDoes) {
     while (const frame::Frame* frame = log.next()) {
         if (frame->phase != 2) continue;
         ++held;
-        // the hand's springs and the couplings' give way to the weight
+        // the hand's springs and the couplings' yield to the weight
         const double spring = model::series_spring_force(1, 300, 1000);
         EXPECT_NEAR(frame->bodies[1].X_WB.p.z(), 0.08 - kWeight / (3 * spring), 5e-4);
         // in the hold the thumb presses as hard as the other two fingers together

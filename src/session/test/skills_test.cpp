@@ -1,5 +1,5 @@
-// Tests what the hand does with a block in the shipped experiments, against mechanics, with every
-// solver.
+// Tests, with every solver, that what the hand does with a block in the shipped experiments obeys
+// mechanics.
 #include <gtest/gtest.h>
 
 #include <numbers>

@@ -1,5 +1,5 @@
-// Tests the shipped scenes with things to do, each in its script's fingers: doors open, drawers
-// slide, scissors close, balls bounce and swing, soft things give way.
+// Tests the shipped scenes with things to do, each handled by its script's fingers: doors open,
+// drawers slide, scissors close, balls bounce and swing, soft things give way.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ double seconds_of(const frame::Frame& frame) {
     return std::chrono::duration<double>(frame.time).count();
 }
 
-/// Force of both fingers on what they hold, and the least of the two.
+/// The smaller of the two fingers' forces on what they hold.
 double grip_of(const frame::Frame& frame) {
     return std::min(frame.fingers[0].f_contact_W.norm(), frame.fingers[1].f_contact_W.norm());
 }

@@ -87,7 +87,7 @@ TEST(ForceDimension, WhatReturnsMoreThanZeroIsNoError) {
     const auto group = make_two();
     Ticks ticks(*group);
     EXPECT_EQ(ticks.status(0, 13), 0u);
-    EXPECT_EQ(ticks.status(0, 1), uint32_t{kForceClamped});  // for the force of the last tick
+    EXPECT_EQ(ticks.status(0, 1), uint32_t{kForceClamped});  // because of the last tick's force
     EXPECT_EQ(ticks.status(0, 1), 0u);
 }
 
@@ -208,7 +208,7 @@ TEST(ForceDimension, AForceThatNobodyRenewsEndsWithin32Ms) {
     EXPECT_EQ(fake.devices[1].acting, Vec3::Zero());
     EXPECT_EQ(readings[0].status, uint32_t{kForceDropped});
     expect_in("It received no command for 32 ms", group->explain(0));
-    EXPECT_EQ(ticks.status(0, 1), uint32_t{kForceDropped});  // the reading precedes arming it again
+    EXPECT_EQ(ticks.status(0, 1), uint32_t{kForceDropped});  // it is read before it is re-armed
     EXPECT_EQ(ticks.status(0, 1), 0u);
     EXPECT_EQ(fake.devices[0].acting, Vec3(1, 0, 0));
 }

@@ -12,7 +12,7 @@
 namespace dihaptic::devices::haply::answerer_test {
 namespace {
 
-/// Listens on a port of this machine, over IPv4, or over IPv6 for both.
+/// Listens on a port of this machine, over IPv4, or with an IPv6 socket that accepts both.
 int listening(bool v6) {
     const int out = socket(v6 ? AF_INET6 : AF_INET, SOCK_STREAM, 0);
     sockaddr_in6 wide{};

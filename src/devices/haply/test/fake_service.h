@@ -24,7 +24,7 @@ enum class Mischief {
     leaves_out,         ///< one device is missing from its answers from then on
     loses_calibration,  ///< one device reports that it is not calibrated
     complains,          ///< it answers with an error and no longer obeys
-    closes,             ///< it ends the connection, like at a restart, and serves the next one
+    closes,             ///< it ends the connection, as at a restart, and serves the next one
 };
 
 class FakeService {
@@ -49,7 +49,8 @@ class FakeService {
     ~FakeService();
 
     std::string url() const;
-    /// The rig file's options for one of its devices; `more`: further ones, as "time_out_ms: 5, ".
+    /// The rig file's options for one of its devices; `more`: further options, such as
+    /// "time_out_ms: 5, ".
     Node options(size_t device, const std::string& more = "") const;
 
     /// Misbehaves once, starting with the answer to message number `message` of a connection, from

@@ -1,4 +1,4 @@
-// Tests the backend on the fake service: its requirements on a set-up, and the effects of trouble.
+// Tests the backend on the fake service: what it requires of a set-up, and the effects of faults.
 #include <gtest/gtest.h>
 
 #include "base/number.h"
@@ -351,8 +351,8 @@ TEST_F(Haply, SurveysWhatTheServiceLists) {
 
 struct Trouble {
     Mischief what;
-    bool one_device = false;  ///< whether the other device has no trouble
-    bool ends = true;         ///< whether it ends the connection
+    bool one_device = false;  ///< whether only one of the two devices is affected
+    bool ends = true;         ///< whether the fault ends the connection
 };
 class HaplyTrouble : public Haply, public ::testing::WithParamInterface<Trouble> {};
 

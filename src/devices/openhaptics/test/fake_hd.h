@@ -18,7 +18,7 @@ struct FakeHd {
         std::string name;
         std::string model = "PHANToM Premium 1.0";
         std::string serial;
-        unsigned style = 1;             ///< of calibration: sum of HdCalibrationStyle
+        unsigned style = 1;             ///< of calibration: a sum of HdCalibrationStyle
         unsigned calibration = 0x5000;  ///< HdCalibration
         unsigned updated = 0x5000;      ///< HdCalibration after an update
         int input_dof = 3;
@@ -49,10 +49,10 @@ struct FakeHd {
     };
     std::vector<Device> devices;
     Hand hand;              ///< null: the handles do not move
-    bool real_time = true;  ///< otherwise as fast as the machine can
-    double ramp = 50;       ///< of force after being switched on [N/s]
+    bool real_time = true;  ///< false: as fast as the machine can
+    double ramp = 50;       ///< rise of force after being switched on [N/s]
     std::vector<unsigned long> rates{500, 1000, 2000, 4000};  ///< possible rates of the scheduler
-    unsigned init_error = 0;                                  ///< of the next hdInitDevice()
+    unsigned init_error = 0;                                  ///< error of the next hdInitDevice()
     bool silent = false;  ///< whether the scheduler stops calling callbacks
     /// Called by the scheduler before each tick, from 0; false: it stops calling callbacks.
     std::function<bool(int tick)> before_tick;
