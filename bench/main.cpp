@@ -35,7 +35,7 @@ std::string json_of(const auto& figures) {
     return FigureJson<nlohmann::ordered_json>::of(figures).dump(2) + "\n";
 }
 
-/// Rows of figures: in JSON a list with that name in an object.
+/// Prints rows of figures; in JSON, as a list with that name in an object.
 template <class Figures>
 void print_rows(const char* name, const std::vector<Figures>& rows, bool json) {
     const auto all = FigureJson<nlohmann::ordered_json>::of(rows);
@@ -117,7 +117,7 @@ void add_scale(CLI::App& app) {
     auto* command =
         app.add_subcommand("scale", "Cost of a tick with 0 to 1000 more blocks on the table");
     auto options = std::make_shared<BenchOptions>();
-    // the bare step for comparison is Bullet's
+    // the bare step that ticks are compared with is Bullet's
     options->setup.settings.dynamics.solver = contact::Solver::sequential_impulse;
     auto extras = std::make_shared<std::vector<int>>(std::vector<int>{0, 10, 50, 200, 1000});
     add_settings(*command, *options);

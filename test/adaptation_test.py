@@ -42,7 +42,7 @@ class Adaptation(unittest.TestCase):
             rows = list(csv.DictReader(table))
         with open(session + "/fits.csv", newline="") as table:
             (cls.fits,) = csv.DictReader(table)
-        # of the first block that was perturbed
+        # sign of the perturbation in the first perturbed block
         cls.direction = next(np.sign(float(row["perturbation"])) for row in rows if abs(float(row["perturbation"])) > 1)
         cls.blocks = {}
         for row in rows:

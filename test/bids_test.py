@@ -116,7 +116,7 @@ class DataSets(unittest.TestCase):
         pathlib.Path(cls.out, "scene.yaml").write_text(SCENE)
         cls.reaches = cls.out + "/reach-turned.yaml"
         pathlib.Path(cls.reaches).write_text(REACHES)
-        # people who do trials, and a script that lifts a block: simulations both
+        # simulated people who do trials, and a script that lifts a block
         cls.sessions = [cls.run_session(cls.reaches, "--simulate", "--participant", person) for person in ["sim-001", "sim-002"]]
         cls.sessions.append(cls.run_session("experiments/lift-block.yaml", "--participant", "sim-001"))
         cls.set = cls.out + "/study"
@@ -135,8 +135,8 @@ class DataSets(unittest.TestCase):
         checked = subprocess.run(["node", validator(), self.set, "--json"], capture_output=True, text=True, timeout=300)
         issues = json.loads(checked.stdout)["issues"]
         self.assertEqual([(i["key"], [f["evidence"] for f in i["files"]][:3]) for i in issues["errors"]], [])
-        # one of these people did another task too; and the validator takes the first line of motion.tsv, which has no
-        # header by BIDS, for one
+        # one of these people also did another task; and the validator takes the first line of motion.tsv for a header,
+        # although by BIDS this file has none
         self.assertLessEqual({i["key"] for i in issues["warnings"]}, {"INCONSISTENT_SUBJECTS", "CUSTOM_COLUMN_WITHOUT_DESCRIPTION"})
 
     def test_it_says_that_it_is_a_simulation(self):
@@ -251,7 +251,7 @@ class DataSets(unittest.TestCase):
         shutil.copytree(self.set, study)
         people = pathlib.Path(study, "participants.tsv")
         rows = [line.split("\t") for line in people.read_text().splitlines()]
-        # a column of theirs first but for the key
+        # adds a column of theirs directly after the key
         people.write_text("".join("\t".join([row[0], "group" if i == 0 else "old", *row[1:]]) + "\n" for i, row in enumerate(rows)))
         other = self.run_session(self.reaches, "--simulate", "--participant", "sim-004")
         dihaptic("export", other, "--bids", study)
@@ -310,7 +310,7 @@ class EveryExperiment(unittest.TestCase):
         with open(session + "/trials.csv") as own:
             rows = list(csv.DictReader(own))
         self.assertEqual(len(exported), len(rows))
-        known = {"start_time", "stop_time", "experiment", "ppid", "session_num"}  # onset, duration, sub- and task- have them
+        known = {"start_time", "stop_time", "experiment", "ppid", "session_num"}  # these are in onset, duration, sub- and task-
         for column in set(rows[0]) - known if rows else ():
             self.assertIn(column, exported[0])
             self.assertEqual([e[column] for e in exported], [row[column] or "n/a" for row in rows], column)

@@ -27,7 +27,7 @@ class Conventions(unittest.TestCase):
         for path in paths:
             with self.subTest(path):
                 there = any(("/" + str(found)).endswith("/" + path.rstrip("/")) for found in PATHS)
-                self.assertTrue(there or f'"{path}"' in CODE)  # of a session's files the code has the name
+                self.assertTrue(there or f'"{path}"' in CODE)  # the names of a session's files are in the code
 
     def test_names_are_in_the_code(self):
         names = [text for text in named() if re.fullmatch(r"[A-Za-z_]\w*(::\w+)*(\(\))?", text)]
@@ -38,7 +38,7 @@ class Conventions(unittest.TestCase):
 
     def test_pages_link_to_what_is_there(self):
         for page in [path for path in PATHS if path.suffix == ".md"]:
-            # the pictures of the manual's pages are made with it
+            # pictures in the manual's pages are made together with the manual
             begin = r"(?<!!)\[[^\]]*" if page.is_relative_to("docs/manual") else ""
             for link in re.findall(begin + r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text()):
                 with self.subTest(page=str(page), link=link):
@@ -51,7 +51,7 @@ class Conventions(unittest.TestCase):
     def test_an_addition_touches_three_files_beside_its_own(self):
         """Of one that exists of each kind: the files outside its own that know its name. Those of two kinds are more, which
         must not grow."""
-        added = {  # kind: (name in the code, its own files, most others)
+        added = {  # kind: (name in the code, its own files, maximum number of other files)
             "a load": (r"LoadKind::curl\b", "src/task/effects/load/", 3),
             "a place of perturbation": (r"\bJointSpec\b|\bjoint_properties\b", "src/task/effects/joint/", 3),
             "a measure of behaviour": (r"\bspectral_arc_length\b", "src/analysis/measures/", 3),

@@ -19,7 +19,7 @@ class Felt:
         return [self.DEVICE.unpack_from(self.map, i * self.DEVICE.size) for i in range(2)]
 
     def forces(self):
-        """What the devices were told last [N]."""
+        """The forces that the devices were last told to exert [N]."""
         return [force for force, *_ in self.devices()]
 
     def opened(self):
@@ -47,6 +47,6 @@ class Felt:
                 times = []
                 for force, told, watchdog, gone, _ in self.devices():
                     times.append(told + watchdog - since if force > 0 else gone - since)
-                return max(0, *times)  # a force that lasts one tick may have been away already
+                return max(0, *times)  # a force that lasts one tick may already have ended
             time.sleep(0.0005)
         return None

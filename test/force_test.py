@@ -23,7 +23,7 @@ from patience import patient
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
 FAKES = pathlib.Path(PROGRAM).resolve().parent / "src/devices"
-TRIES = 3  # a busy machine may keep any thread waiting: the best of so many is judged by the bar
+TRIES = 3  # a busy machine may keep any thread waiting: the limit applies to the best of these
 
 RIGS = {
     "openhaptics": ("libfake_hd.so", "0 -0.0735 0", [
@@ -40,7 +40,7 @@ RIGS = {
         ["device_id: 049D", "device_id: 04A1"]),
 }
 
-# a busy machine, whose late ticks would soften the coupling, is another test's
+# late ticks on a busy machine would soften the coupling; this is tested elsewhere
 SETTINGS = "settings: {safety: {hand_damping_Ns_m: 100}}\n"
 
 
@@ -103,7 +103,7 @@ class Program(unittest.TestCase):
             raise NoForce(process.communicate())
         for force in forces:
             self.assertLess(force, 3.7)
-        if RIGS[backend][0]:  # a library: its devices are opened by the device host alone, and once
+        if RIGS[backend][0]:  # a library's devices are opened only by the device host, and only once
             self.assertEqual(felt.opened(), [1, 1])
         return process, felt
 
@@ -113,7 +113,7 @@ class Program(unittest.TestCase):
         best, bar = None, patient(bar)
         for _ in range(TRIES):
             process, felt = self.start(backend, more)
-            felt.wait_for_force(5, settle=0)  # Haply's lasts one tick: for a late one it is away
+            felt.wait_for_force(5, settle=0)  # Haply's force lasts one tick: if a tick is late, it is gone
             since = time.monotonic()
             happen(process)
             gone = felt.gone_after(since, patient(1))
@@ -173,11 +173,11 @@ class Signals(Program):
                 host = subprocess.run(["pgrep", "-P", str(process.pid), "dihaptic-host"], capture_output=True, text=True)
                 since = time.monotonic()
                 os.kill(int(host.stdout), signal.SIGKILL)
-                if backend != "openhaptics":  # what its devices do by themselves nobody knows
+                if backend != "openhaptics":  # it is unknown what OpenHaptics' devices do by themselves
                     gone = felt.gone_after(since, patient(1))
                     self.assertIsNotNone(gone, felt.devices())
                     print(f"{backend:15s} device host killed: force gone after {gone * 1e3:6.2f} ms", file=sys.stderr)
-                    self.assertLess(gone, patient(0.040))  # the firmware's watchdog, which the device host had set, after 32
+                    self.assertLess(gone, patient(0.040))  # the firmware's watchdog, set by the device host, acts after 32 ms
                 told = b"".join(process.communicate(timeout=patient(60)))
                 self.assertEqual(process.returncode, 1, told)
                 self.assertIn(b"does not answer", told)
@@ -213,7 +213,7 @@ class Libraries(Program):
 
     def test_that_cannot_be_stopped_leave_it_to_the_hardware_and_the_session_ends(self):
         for how in soak.of(["hangs"], ["hangs", "crashes"]):
-            # what OpenHaptics' devices do by themselves nobody knows: the fake goes on pushing, and this notices a change
+            # it is unknown what OpenHaptics' devices do by themselves; the fake goes on pushing, and this notices a change
             self.assertIsNone(self.failed("openhaptics", how, None))
 
 

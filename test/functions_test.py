@@ -17,7 +17,7 @@ needs.program("ctags", "universal-ctags")
 
 MOST_LINES = 60
 MOST_COMPLEX = 15
-# what even an exception may not be
+# limits that even an exception may not exceed
 MOST_LINES_EVER = 80
 MOST_COMPLEX_EVER = 20
 

@@ -18,7 +18,7 @@ SOURCE = pathlib.Path.cwd()
 class Installed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        # a home of somebody with a name: blanks and letters beyond ASCII in every path
+        # as in a person's home folder, every path contains blanks and letters beyond ASCII
         cls.folder = tempfile.TemporaryDirectory(prefix="Renée Müller ")
         cls.prefix = pathlib.Path(cls.folder.name, "usr")
         cls.work = pathlib.Path(cls.folder.name, "work")
@@ -116,7 +116,7 @@ print(len(dh.run("experiments/lift-block.yaml", out="by-python").lifts))
         self.assertLessEqual(len((source / "lift.cpp").read_text().splitlines()), 60)
         self.run_here("cmake", "-S", source, "-B", "built", f"-DCMAKE_PREFIX_PATH={self.prefix}")
         self.run_here("cmake", "--build", "built")
-        self.environment["XDG_DATA_HOME"] = f"{self.prefix}/share"  # it is not installed in /usr
+        self.environment["XDG_DATA_HOME"] = f"{self.prefix}/share"  # needed because it is not installed in /usr
         self.assertIn("The block is lifted.", self.run_here("built/lift"))
         self.environment.pop("XDG_DATA_HOME")
 

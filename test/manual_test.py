@@ -64,7 +64,7 @@ class Words(unittest.TestCase):
                 unknown.setdefault(word.removesuffix("'s"), page)
         wrong = {word: page for word, page in unknown.items() if word not in words}
         self.assertEqual(wrong, {}, "correct them, or add them to docs/manual/words.txt")
-        # another Debian's dictionary has some of them
+        # the dictionaries of other Debian versions contain some of them
         told = set(re.findall(r"[^\W\d_]+", " ".join(prose(page) for page in all_pages())))
         unused = [word for word in words if word not in unknown and not told.issuperset(re.findall(r"[^\W\d_]+", word))]
         self.assertEqual(unused, [], "no page needs these words of the list")
@@ -105,7 +105,7 @@ class Pages(unittest.TestCase):
         wrong = faults(PAGE, SAID.replace("A", "B"))
         self.assertRegex(wrong[0], "line 13: the commands above do not print: title: A")
         self.assertIsNone(unlike("a\nb 1 c\nd", "a\n...\nb ... c"))
-        self.assertEqual(unlike("a\nb", "b\na"), "a")  # in that order
+        self.assertEqual(unlike("a\nb", "b\na"), "a")  # the order matters
 
     def test_a_file_that_no_command_uses_is_a_fault(self):
         self.assertRegex(faults(PAGE.replace("cat scene", "cat other"), SAID)[0], "uses scene.yaml")

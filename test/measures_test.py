@@ -18,7 +18,7 @@ import numpy as np
 
 try:
     from scipy import stats
-except ImportError:  # not on every machine: numpy does the same sums
+except ImportError:  # not installed on every machine; numpy then computes the same
     stats = None
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
@@ -206,7 +206,7 @@ class Measures(unittest.TestCase):
             cls.list = list(csv.DictReader(file))
         with open(cls.session / "trials.csv", newline="") as file:
             cls.csv = list(csv.DictReader(file))
-        # a CSV file has nine digits, the table of an NWB file all
+        # a CSV file has nine digits; the table of an NWB file has them all
         with h5py.File(cls.session / "session.nwb", "r") as nwb:
             cls.trials = {key: np.asarray(column) for key, column in nwb["intervals/trials"].items()
                           if isinstance(column, h5py.Dataset) and column.dtype.kind == "f"}
@@ -219,7 +219,7 @@ class Measures(unittest.TestCase):
         """What the measures of the trial with that number, from 1, should be."""
         own = [f for f in self.frames if f["trial"] == trial and f["phase"] > 0]
         phases = np.array([f["phase"] for f in own])
-        run = phases >= 2  # reach and stay
+        run = phases >= 2  # the states reach and stay
         time = np.array([f["time"] for f in own])[run] * 1e-9
         finger = [f["fingers"][0] for f in own]
         place = np.array([f["handle_position"] for f in finger])[run]
@@ -298,7 +298,7 @@ class Measures(unittest.TestCase):
         page = (self.session / "report.html").read_text()
         for text in ["By condition</h2>", "lateral deviation [mm]"]:
             self.assertIn(text, page)
-        self.assertNotIn("no channel (6)", page)  # a trial without a channel was never to be measured
+        self.assertNotIn("no channel (6)", page)  # trials without a channel are not listed as unmeasured
         with open(self.session / "adaptation.csv", newline="") as file:
             rows = list(csv.DictReader(file))
         for row, trial in zip(rows, self.csv):

@@ -34,7 +34,7 @@ class Meshes(unittest.TestCase):
 
 
 def rows(file):
-    """What the only IDAT chunk of a PNG file holds."""
+    """The content of the only IDAT chunk of a PNG file."""
     with open(file, "rb") as png:
         data = png.read()
     at = data.index(b"IDAT")

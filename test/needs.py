@@ -5,7 +5,7 @@ import shutil
 import sys
 import unittest
 
-#: By which ctest knows a test that did not run.
+#: Exit status that tells ctest that a test did not run.
 NOT_RUN = 77
 
 
@@ -21,7 +21,7 @@ def program(name, package):
 
 
 def module(name, package):
-    """The same of a module of Python."""
+    """The same for a module of Python."""
     if importlib.util.find_spec(name) is None:
         print(f"SKIPPED: {_missing(name, package)}", flush=True)
         sys.exit(NOT_RUN)

@@ -6,7 +6,7 @@ import pathlib
 import re
 import unittest
 
-#: What reads or writes numbers by the language in force, or puts one in force.
+#: Calls that read or write numbers in the current language, or set this language.
 FORBIDDEN = {
     "the C library's readers": r"\b(?:std::)?(?:strto(?:d|f|ld|l|ll|ul|ull|imax|umax)|ato(?:f|i|l|ll)|v?f?s?scanf|wcsto\w+)\s*\(",
     "C++'s readers": r"\bstd::sto(?:d|f|ld|i|l|ll|ul|ull)\b",
@@ -17,11 +17,11 @@ FORBIDDEN = {
     "Qt's way of the language": r"%L\d|\bto(?:CurrencyString|LocalString)\b|QLocale\(\)\s*\.\s*(?:toString\((?!.*\"d MMMM)|to(?:Double|Int|Float))",
     "Qt's field for numbers": r"\bnew Q(?:Double)?SpinBox\b|\bQDoubleValidator\b",
 }
-#: Who may, and why.
+#: Files that may use them, and why.
 ALLOWED = {
     ("app/gui/application.cpp", "a language for the process"): "takes the language of numbers back that Qt put in force",
 }
-#: Of the product, whose tests may print what they measured.
+#: Forbidden in the product, but not in its tests, which may print what they measured.
 OF_THE_PRODUCT = {
     "numbers by printf": r"printf\s*\([^;]*%[-+ #0-9.*]*[aefgAEFG]",
     "C++'s readers of reals": r">>\s*\w+(?:\.(?:x|y|z|w)\(\)|\[\d\])",

@@ -16,7 +16,7 @@ import numpy as np
 
 try:
     import pynwb
-except ImportError:  # not of Debian: a machine that has it from elsewhere asks its validator too
+except ImportError:  # Debian has no package of it; its validator is also run where it is installed
     pynwb = None
 
 STUDY = """study:
@@ -226,7 +226,7 @@ class Nwb(unittest.TestCase):
 
     def test_subject_and_devices(self):
         self.assertEqual(self.text("general/subject/subject_id"), "S07")
-        # a script is nobody of any species
+        # a script has no species
         self.assertNotIn("species", self.file["general/subject"])
         self.assertTrue(self.text("general/subject/description").startswith("Simulated: the file's script moved the hand."))
         self.assertIn("premium", self.file["general/devices/thumb"].attrs["description"])

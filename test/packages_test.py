@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 import unittest
 
-SPACE = 12e9  # that a live system takes while it is made [bytes]
+SPACE = 12e9  # disk space for making a live system [bytes]
 
 
 def shell(*words):

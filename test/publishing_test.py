@@ -144,7 +144,7 @@ class Release(unittest.TestCase):
 
     def test_is_refused_without_a_tag_of_the_commit(self):
         self.refused("this commit has no tag v1.2.3")
-        self.git("tag", "v1.2.3")  # which git describe, and so the packages, do not see
+        self.git("tag", "v1.2.3")  # a lightweight tag, which git describe, and so the packages, ignore
         self.refused("this commit has no tag v1.2.3")
         self.git("tag", "--force", "--annotate", "v1.2.3", "--message", "1.2.3")
         (self.here / "new.txt").touch()

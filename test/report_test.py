@@ -28,7 +28,7 @@ def dihaptic(*arguments):
 
 
 def chromium(page, *arguments):
-    """What the browser says of a page on standard output."""
+    """What the browser prints about a page on standard output."""
     needs.for_this_test("chromium", "chromium")
     return subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=10000",
                            "--window-size=1100,3000", *arguments, pathlib.Path(page).resolve().as_uri()],
@@ -43,7 +43,7 @@ class Pages(unittest.TestCase):
     def drawn(self, page):
         """Opens a page in a browser: it draws its figures, and nothing goes wrong. Returns the page as rendered."""
         text = pathlib.Path(page).read_text()
-        # what goes wrong is written into the page
+        # writes errors of scripts into the page
         probe = "<script>window.onerror = (why) => { document.documentElement.dataset.wrong = why; };</script>"
         with tempfile.NamedTemporaryFile("w", suffix=".html") as copy:
             copy.write(text.replace("<head>", "<head>" + probe))
@@ -97,7 +97,7 @@ class Reports(Pages):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.out = cls.folder.name + "/sessions"
-        # all rounds and blocks of the shipped file, with 200 trials in place of 504
+        # all rounds and blocks of the shipped file, with 200 trials instead of 504
         text = pathlib.Path("experiments/visuomotor-rotation.yaml").read_text().replace("../", os.getcwd() + "/")
         for block, times in [("baseline, repeats: 2", 1), ("repeats: 8", 3), ("count: 6", 2), ("clamp, repeats: 2", 1),
                              ("washout, repeats: 3", 1)]:
@@ -143,7 +143,7 @@ class Reports(Pages):
         dom = self.drawn(session + "/report.html")
         for name in ("lift-curves", "grip-against-load"):
             self.assertIn(f'data-name="{name}"', dom)
-        # the recorded trial, in a strip for each quantity
+        # the recorded trial is shown, with a strip for each quantity
         viewer = dom[dom.index('class="viewer"'):]
         self.assertEqual(viewer.count("<canvas"), 4)
         self.assertIn("No person took part.", dom[dom.index("Methods in words</h2>"):])
@@ -177,7 +177,7 @@ class Reports(Pages):
         self.assertGreater(sum(late) / len(late), 15)
         for kind in ("svg", "pdf", "png", "csv", "py"):
             self.assertTrue(pathlib.Path(people, "figures", f"learning-curve.{kind}").is_file(), kind)
-        # the tables alone, of two that are compared; the page of both needs a folder
+        # only the tables of two compared sessions: a page of both would need a folder
         said = dihaptic("report", people + "/sim-001", people + "/sim-002", "--tables")
         self.assertNotIn("report.html", said)
         self.assertIn("of 2 sessions", said)

@@ -2,7 +2,7 @@
 NAME, in `./dev test`, and NAME/soak, with everything, in `./dev soak`."""
 import os
 
-#: Whether to run everything rather than a sample. To set it by hand: DIHAPTIC_SOAK=1 python3 FILE PROGRAM.
+#: Whether to run everything rather than a sample. To run a file that way: DIHAPTIC_SOAK=1 python3 FILE PROGRAM.
 EVERYTHING = "DIHAPTIC_SOAK" in os.environ
 
 

@@ -22,12 +22,12 @@ import soak
 PROGRAM = os.path.abspath(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic")
 KEPT = pathlib.Path("test/tables.txt")
 RENEWS = "DIHAPTIC_RENEW_TABLES" in os.environ
-# without trials; of movements that were recorded; phases and adaptation; lifts; procedures and thresholds; measures of one's own;
-# a sequence of loads; sounds
+# without trials; with recorded movements; phases and adaptation; lifts; procedures and thresholds; custom measures; a sequence
+# of loads; sounds
 A_FEW = ["lift-block", "reach-to-grasp", "rotation-reversal", "first-trials", "friction-discrimination", "fitts-law",
          "load-steps", "reach-at-tone"]
 EVERY = sorted(path.stem for path in pathlib.Path("experiments").glob("*.yaml"))
-#: What says when and by which program, beside what was computed.
+#: Files that contain times or the version of the program, besides results.
 NOT_COMPARED = {"session.yaml", "rehearsal.yaml", "report.html", "raw.log"}
 
 

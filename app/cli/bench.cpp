@@ -47,8 +47,8 @@ void run_grasp(GraspOptions options) {
 
 void add_grasp(CLI::App& bench) {
     auto* command = bench.add_subcommand("grasp",
-                                         "Two fingers lift and hold a block: how steadily, how "
-                                         "accurately, and how stiff the coupling may be");
+                                         "Measure how steadily and accurately two fingers lift "
+                                         "and hold a block, and how stiff the coupling may be");
     auto options = std::make_shared<GraspOptions>();
     frame::Settings& settings = options->setup.settings;
     add_choice(*command, "--solver", settings.dynamics.solver, "contact solver");
@@ -65,9 +65,9 @@ void add_grasp(CLI::App& bench) {
     command->add_option("--set", options->set,
                         "any other setting, e.g. coupling.onset_ms=20; may be repeated");
     command->footer(
-        "\nWithout --coupling, both couplings of rigid proxies are measured, and points with "
-        "friction\nsolved together with the dynamics and separately; with --json, only the default "
-        "coupling.\n\nExamples:\n"
+        "\nWithout --coupling, the bench measures both couplings of rigid proxies, and also "
+        "points whose\nfriction is solved either together with the dynamics or separately. With "
+        "--json, it measures\nonly the default coupling.\n\nExamples:\n"
         "  dihaptic bench grasp --coupling dual_spring --mass 0.2\n"
         "  dihaptic bench grasp --set coupling.onset_ms=20");
     command->callback([command, options] {

@@ -53,7 +53,7 @@ void add_calibrate(CLI::App& app) {
     command->add_option(
         "-o,--out", options->out,
         "calibration file; default: the rig's own, next to the rig file. The picture of the "
-        "residuals gets its name");
+        "residuals is named after it");
     command->footer(
         "\nExample:\n  dihaptic calibrate rigs/premium-misplaced.yaml -o "
         "calibration.yaml");

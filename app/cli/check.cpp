@@ -10,11 +10,11 @@ namespace dihaptic::cli {
 void add_check(CLI::App& app) {
     auto* command = app.add_subcommand(
         "check",
-        "Check scene, rig, experiment, movement and population files before anyone sits down");
+        "Check scene, rig, experiment, movement and population files before a session begins");
     auto files = std::make_shared<std::vector<std::string>>();
     command->add_option("FILE", *files, "files to check")->transform(given_or_kept())->required();
     auto rig = std::make_shared<std::string>();
-    command->add_option("--rig", *rig, "rig file, in place of the experiments'")
+    command->add_option("--rig", *rig, "rig file, in place of those that the experiments name")
         ->transform(given_or_kept());
     command->footer(
         "\nExamples:\n  dihaptic check scenes/*.yaml rigs/*.yaml experiments/*.yaml "

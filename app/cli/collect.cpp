@@ -81,7 +81,7 @@ struct Content {
     std::vector<std::string> others;  ///< names of folders with sessions that belong to no person
 };
 
-/// Whether a folder has the name of a person, "sim-003".
+/// Whether a folder has a name like a person's, e.g. "sim-003".
 bool is_persons(const std::string& name) {
     const std::string first = person_id(1);
     const std::string_view stem = std::string_view(first).substr(0, first.find('-') + 1);
@@ -251,7 +251,7 @@ class Contacts {
   public:
     void add(const recording::SessionInfo& info) {
         ++sessions_;
-        if (!info.convergence) return;  // none before version 0.3
+        if (!info.convergence) return;  // not recorded before version 0.3
         const recording::Convergence& one = *info.convergence;
         ++known_;
         ticks_ += one.ticks;
@@ -261,7 +261,7 @@ class Contacts {
         held_residual_ = std::max(held_residual_, one.held_residual.value_or(0));
     }
     std::string describe() const {
-        if (known_ == 0) return "no session says how closely its contacts were solved";
+        if (known_ == 0) return "no session recorded how closely its contacts were solved";
         const std::string of = counted(known_, "session");
         std::string out =
             missed_ == 0
@@ -275,7 +275,7 @@ class Contacts {
             out +=
                 fmt::format("; its largest residual at touched objects was {:.1g}", held_residual_);
         if (known_ < sessions_)
-            out += fmt::format("; {} of {} do not say this", sessions_ - known_,
+            out += fmt::format("; {} of {} did not record this", sessions_ - known_,
                                counted(sessions_, "session"));
         return out;
     }
@@ -286,7 +286,7 @@ class Contacts {
     double held_residual_ = 0;
 };
 
-/// The collected tables. Each row starts with seed, group and id, and ends with the mover of the
+/// The collected tables. Each row starts with seed, group and id, and ends with what moved the
 /// hand.
 class Collection {
   public:
@@ -406,15 +406,16 @@ void add_collect(CLI::App& app) {
         ->required();
     command->add_option("--out", options->out, "folder for the tables; default: the first one");
     command->add_flag("--join-seeds", options->join_seeds,
-                      "folders may have several seeds: the column seed distinguishes their people");
+                      "folders may have different seeds: the column 'seed' tells their people "
+                      "apart");
     command->add_option("--rehearsed", study->rehearsed,
                         "with a study: the folder of its rehearsal, in place of its participants");
     command->add_flag("--reveal-groups", study->reveal_groups,
-                      "with a study: name groups that are concealed; the log notes it");
+                      "with a study: show the names of concealed groups; this is logged");
     command->footer(
         "\nA study's tables go to tables/ next to participants.yaml, each row with the person's "
         "group,\n"
-        "session and condition; participants.csv has the people.\n"
+        "session and condition; participants.csv lists the people.\n"
         "\nExamples:\n"
         "  dihaptic collect my-study.yaml\n"
         "  dihaptic collect rehearsals/visuomotor-rotation_1\n"

@@ -19,6 +19,7 @@ void add_bench(CLI::App& app);
 void add_tune(CLI::App& app);
 void add_picture(CLI::App& app);
 void add_video(CLI::App& app);
+void add_power(CLI::App& app);
 void add_report(CLI::App& app);
 void add_fit(CLI::App& app);
 void add_export(CLI::App& app);

@@ -19,8 +19,8 @@ std::string what_became(int status) {
     return stop_requested ? "interrupted" : "failed";
 }
 
-/// The message about a person's process that failed. If the disk is full, the process left no
-/// message.
+/// The message about a person's process that failed. A process that fails because the disk is full
+/// leaves none.
 std::string why_failed(const CrowdWork& work, const std::string& id) {
     const std::string messages = work.messages(id);
     if (!messages.empty() || stop_requested) return messages;

@@ -12,8 +12,9 @@ namespace dihaptic::cli {
 
 struct CrowdWork {
     int jobs = 1;
-    std::string out;  ///< folder, for messages
-    /// Starts a person's process; nullopt: another program is already doing this person's work.
+    std::string out;  ///< folder, named in messages
+    /// Starts a person's process; returns nullopt if another program is already doing this person's
+    /// work.
     std::function<std::optional<pid_t>(const std::string& id)> start;
     std::function<bool(const std::string& id)> is_done;
     /// The message that a person's process left.

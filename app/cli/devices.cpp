@@ -23,7 +23,7 @@ void list_devices() {
 
 void add_devices(CLI::App& app) {
     auto* command = app.add_subcommand(
-        "devices", "List the haptic devices of this machine, and missing parts for others");
+        "devices", "List this machine's haptic devices, and the parts that are missing for others");
     command->footer(
         "\nNothing moves. A device listed here can be named in a rig file "
         "(docs/files.md).\n\nExample:\n  dihaptic devices");

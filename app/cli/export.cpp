@@ -17,7 +17,7 @@ struct Options {
     std::string psych_ds;
     std::string names;
     std::string out;
-    StudyData study;  ///< in place of a session
+    StudyData study;  ///< used in place of a session
 };
 
 void tell_log(const std::vector<std::string>& wrong) {
@@ -93,7 +93,8 @@ void add_export(CLI::App& app) {
         command
             ->add_option("--csv", options->names,
                          "quantities, by their names in docs/quantities.md, separated by commas: "
-                         "a row for each tick, with its time, its trial and these, in SI units")
+                         "one row per tick, with its time, its trial and these quantities, in SI "
+                         "units")
             ->excludes(bids);
     command
         ->add_option("--psych-ds", options->psych_ds,
@@ -103,7 +104,7 @@ void add_export(CLI::App& app) {
     command->add_option("--rehearsed", options->study.rehearsed,
                         "with a study: the folder of its rehearsal, in place of its participants");
     command->add_flag("--reveal-groups", options->study.reveal_groups,
-                      "with --psych-ds: name groups that are concealed; the log notes it");
+                      "with --psych-ds: show the names of concealed groups; this is logged");
     command->add_option("-o,--out", options->out, "the CSV file; default: SESSION_curves.csv, here")
         ->needs(csv);
     command->footer(

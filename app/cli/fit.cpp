@@ -138,7 +138,7 @@ struct PsychometricOptions {
     analysis::PsychometricFitSettings settings;
 };
 
-/// The answers of a table, whose column `yes` has 1 or yes, or else 0 or no.
+/// The answers of a table, whose column `yes` contains 1 or "yes", and 0 or "no".
 std::vector<analysis::Answer> read_answers(const std::string& file) {
     const CsvFile table =
         given(file, {"level", "yes"},
@@ -193,7 +193,9 @@ void add_psychometric(CLI::App& fit) {
         ->required();
     add_choice(*command, "--sigmoid", options->settings.sigmoid,
                "shape of the function; default: normal");
-    command->add_option("--guess", options->settings.guess, "share of yes by guessing")
+    command
+        ->add_option("--guess", options->settings.guess,
+                     "share of 'yes' answers expected from guessing")
         ->check(CLI::Range(0.0, 0.99))
         ->capture_default_str();
     command->add_option("--max-lapse", options->settings.max_lapse, "largest share of lapses")

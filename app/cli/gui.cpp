@@ -49,7 +49,7 @@ void add_gui(CLI::App& app) {
     auto options = std::make_shared<Options>();
     command->add_option("FILE", options->files,
                         "scene or experiment, or folders of recorded sessions, of which two are "
-                        "shown side by side; none: a start page");
+                        "shown side by side; without any, a start page is shown");
     command->add_option("--out", options->out, "folder for session folders")->capture_default_str();
     command->add_option("--sync", options->sync, "as in dihaptic run [s]")
         ->check(CLI::Range(0.05, 3600.0));

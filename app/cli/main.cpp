@@ -23,7 +23,8 @@ void say_what_to_do(const std::string& program) {
         const char* what;
     };
     const std::array<Line, 5> lines{{
-        {"run experiments/lift-block.yaml", "two fingers lift a block: figures, a recording"},
+        {"run experiments/lift-block.yaml",
+         "two fingers lift a block: prints figures, makes a recording"},
         {"gui", "the window, in which your mouse moves the hand"},
         {"new study NAME", "a study of your own, to be edited"},
         {"doctor", "parts that this machine lacks, with a command for each"},
@@ -58,7 +59,7 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) cli::typed += " " + shell_word(argv[i]);
     if (argc <= 1) {
         cli::say_what_to_do(argc == 1 ? shell_file(argv[0]) : "dihaptic");
-        return cli::kBadInput;  // a script with an empty command has done nothing
+        return cli::kBadInput;  // a script whose arguments are empty must not seem to succeed
     }
 
     CLI::App app(
@@ -80,6 +81,7 @@ int main(int argc, char** argv) {
     cli::add_tune(app);
     cli::add_picture(app);
     cli::add_video(app);
+    cli::add_power(app);
     cli::add_report(app);
     cli::add_fit(app);
     cli::add_export(app);

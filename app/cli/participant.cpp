@@ -48,7 +48,7 @@ void read_facts(ParticipantOptions& options) {
     }
 }
 
-/// The file of names, if there is one.
+/// The file of names, if one was given.
 std::optional<study::KeyFile> names_of(const ParticipantOptions& options,
                                        const study::StudyFile& study,
                                        study::KeyFile::Missing missing) {
@@ -90,7 +90,7 @@ void add(ParticipantOptions& options) {
     person.added = recording::iso_now();
     person.version = static_cast<int>(session::versions_of(study).size());
     roster.participants.push_back(person);
-    // first: if the name cannot be written, nobody has been added
+    // this comes first: if the name cannot be written, nobody is added
     if (names) names->add({person.id, options.name, options.contact});
     study::log(study, "add", person.id, study.shown_group(person.group));
     study::write_roster(study, roster);
@@ -255,7 +255,7 @@ void accept(const ParticipantOptions& options) {
     const study::Roster roster = study::read_roster(study);  // the groups of all participants exist
     session::StudyVersion now = session::present_version(study);
     const auto versions = session::versions_of(study);
-    if (versions.empty()) session::check_unchanged(study, now);  // lost, or not made yet
+    if (versions.empty()) session::check_unchanged(study, now);  // versions lost, or none made yet
     const std::string what = versions.empty() ? "" : session::changed(versions.back(), now);
     if (what.empty()) {
         throw Error({options.file, 0}, "",
@@ -271,14 +271,15 @@ void accept(const ParticipantOptions& options) {
     for (const study::Member& member : roster.participants) {
         for (const std::string& folder : session::uncounted(study, member))
             fmt::print(stderr,
-                       "WARNING: {} no longer counts: the study has no session with this name\n",
+                       "WARNING: {} is no longer part of the study, which has no session with "
+                       "this name\n",
                        folder);
     }
 }
 
 using Shared = std::shared_ptr<ParticipantOptions>;
 
-/// The option --key; `what` happens to the names.
+/// The option --key. `what`: what happens to the names, for its help.
 CLI::Option* add_key(CLI::App& command, const Shared& options, const char* what) {
     return command
         .add_option("--key", options->key_file,

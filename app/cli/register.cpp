@@ -87,8 +87,8 @@ void add_register(CLI::App& app) {
     command->add_option("--finger", options->finger,
                         "finger that touches; default: that of the rig's first device");
     command->add_option("--crosses", options->crosses,
-                        "only draw the crosses: an SVG file, for any program that shows it on the "
-                        "whole screen");
+                        "only draw the crosses, to this SVG file, which any program may show on "
+                        "the whole screen");
     command->add_option("-o,--out", options->out,
                         "registration file; default: the display's own, next to the rig file");
     command->footer(

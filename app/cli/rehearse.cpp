@@ -35,8 +35,8 @@ struct RehearseOptions {
     std::optional<person::Population> population;
     int people = 1;
     int jobs = 1;
-    int slurm = 0;          ///< number of shards for Slurm; 0: done here
-    std::string container;  ///< Apptainer file whose program runs them; empty: this program
+    int slurm = 0;          ///< number of shards for Slurm; 0: run here
+    std::string container;  ///< Apptainer file whose program runs the shards; empty: this program
     bool real_objects = false;
     bool keep_recordings = false;
 };
@@ -126,7 +126,7 @@ Roster roster_of(const RehearseOptions& options, const Shard& shard) {
     return roster;
 }
 
-/// What is to be done for each person of a rehearsal.
+/// The work for each person of a rehearsal.
 CrowdWork work_of(const RehearseOptions& options) {
     CrowdWork work;
     work.jobs = options.jobs;
@@ -145,7 +145,7 @@ CrowdWork work_of(const RehearseOptions& options) {
     return work;
 }
 
-/// The command for all these people, from any folder.
+/// The command that runs the sessions of all these people, from any folder.
 std::string command_again(const RehearseOptions& options) {
     return RehearseCommand{options.request.file,
                            options.people,
@@ -279,8 +279,8 @@ constexpr const char* kFooter =
     "refused.\nCompleted people are not repeated: after a break, the same command "
     "continues.\nResults are identical to the byte for any --jobs, --shard and --slurm.\n--slurm "
     "checks all files, then writes slurm.sh into the folder and submits it with sbatch. "
-    "collect\nlists the shards with missing people, and the command to have those "
-    "done.\n\nExamples:\n  dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 "
+    "collect\nlists the shards with missing people, and the command that completes "
+    "them.\n\nExamples:\n  dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 "
     "--jobs 2\n  dihaptic rehearse experiments/rotation-reversal.yaml --population patients.yaml "
     "--people 40 --out patients\n  parallel dihaptic rehearse experiments/visuomotor-rotation.yaml "
     "--people 40 --shard {}/4 ::: 1 2 3 4\n  dihaptic rehearse "
@@ -305,30 +305,34 @@ void add_rehearse(CLI::App& app) {
     command
         ->add_option(
             "--people", options->people,
-            "number of people: sim-001 and so on; default for a study: those of its groups")
+            "number of people, named sim-001 and so on; default for a study: as many as it asks "
+            "for")
         ->check(CLI::Range(1, session::kMostPeople))
         ->capture_default_str();
     command->add_option("--jobs", options->jobs, "number of sessions at a time")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
-    command->add_option("--shard", options->shard, "only every 20th person, from the 3rd: 3/20")
+    command
+        ->add_option("--shard", options->shard,
+                     "only a part of the people, e.g. 3/20: every 20th person, from the 3rd")
         ->capture_default_str();
     command
         ->add_option("--slurm", options->slurm,
                      "submit this many shards to the cluster, as a Slurm array: see below")
         ->check(CLI::Range(1, session::kMostPeople));
     command->add_option("--container", options->container,
-                        "with --slurm: Apptainer file (SIF) whose dihaptic does the shards");
+                        "with --slurm: Apptainer file (SIF) whose dihaptic runs the shards");
     command->add_option("--out", options->out, "folder; default: rehearsals/EXPERIMENT_SEED");
     command->add_option("--seed", options->request.seed, "seed of all random numbers")
         ->check(seed_range())
         ->capture_default_str();
     command
         ->add_flag("--real-objects", options->real_objects,
-                   "people grip as without a device: as in populations/adults-real-objects.yaml")
+                   "people grip as they would without a device, as in "
+                   "populations/adults-real-objects.yaml")
         ->excludes("--population");
     command->add_flag("--keep-recordings", options->keep_recordings,
-                      "keep raw.log and session.nwb of each: hundreds of MB");
+                      "keep raw.log and session.nwb of each person: hundreds of MB");
     command->footer(kFooter);
     command->callback([options, command] {
         if (rehearse_as_study(*options, *command)) return;
@@ -336,7 +340,7 @@ void add_rehearse(CLI::App& app) {
         if (options->slurm == 0) return rehearse(*options);
         if (command->count("--shard") + command->count("--jobs") > 0) {
             throw Error({"--slurm", 0}, "", "cannot be combined with --shard or --jobs",
-                        "Leave them out: Slurm does all shards, each on one processor.");
+                        "Leave them out: Slurm runs all shards, each on one processor.");
         }
         rehearse_by_slurm(*options);
     });

@@ -24,7 +24,7 @@ std::string word(const std::string& file) {
     return shell_word(whole(file));
 }
 
-/// The words that start the program: this one, or that of a container.
+/// The words that start the program, which is either this one or that in a container.
 std::string program(std::string container) {
     // set inside a container; a folder if Apptainer has unpacked the file for this command alone
     const char* const here = std::getenv("APPTAINER_CONTAINER");
@@ -41,8 +41,8 @@ std::optional<int> number(const std::string& word, int most) {
     return out && *out >= 1 && *out <= most ? out : std::nullopt;
 }
 
-/// Removes an option and its word from the front of `words`; nullopt if there is no such option, or
-/// if its word is invalid.
+/// Reads the option at `words[at]`, and its value, into `command`. Returns the index of the word
+/// after them; nullopt if there is no such option, or if its value is invalid.
 std::optional<size_t> take(const std::vector<std::string>& words, size_t at,
                            RehearseCommand& command) {
     const std::string& option = words[at];
@@ -68,8 +68,8 @@ std::optional<size_t> take(const std::vector<std::string>& words, size_t at,
 std::optional<RehearseCommand> parse(const std::string& text) {
     auto words = shell_words(text);
     if (words && words->size() > 4 && (*words)[0] == "apptainer" && (*words)[1] == "exec")
-        words->erase(words->begin(),
-                     words->begin() + 3);  // a container may be a stranger's program
+        // left out, because a container may be a stranger's program
+        words->erase(words->begin(), words->begin() + 3);
     if (!words || words->size() < 3 || (*words)[1] != "rehearse" || !(*words)[2].starts_with('/'))
         return std::nullopt;
     RehearseCommand out;

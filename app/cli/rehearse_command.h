@@ -21,10 +21,10 @@ struct RehearseCommand {
     bool real_objects = false;
     bool keep_recordings = false;
     int jobs = 1;
-    std::string container;  ///< Apptainer file whose program runs them; empty: this one
+    std::string container;  ///< Apptainer file with the program; empty: this program
 
-    /// The command to type, from any folder, with the path of this program, which may itself be in
-    /// a container, or of `container`.
+    /// The command to type in any folder. It starts this program, which may itself be in a
+    /// container, or the program in `container`.
     std::string text() const;
 };
 

@@ -8,7 +8,8 @@ namespace dihaptic::cli {
 
 void add_replay(CLI::App& app) {
     auto* command = app.add_subcommand(
-        "replay", "Re-run a session's device input: the forces must be identical to the bit");
+        "replay",
+        "Re-run a session from its device input: the forces must be identical to the bit");
     auto session = std::make_shared<std::string>();
     command->add_option("SESSION", *session, "folder of a session")->required();
     command->footer("\nExample:\n  dihaptic replay sessions/2026-11-20_101500_lift-block");
@@ -35,8 +36,8 @@ void add_replay(CLI::App& app) {
         if (result.interrupted) fmt::print("interrupted: the rest was not compared\n");
         if (result.damaged) {
             fmt::print(
-                "the log is not as it was written: missing parts could not be compared, and a "
-                "replay requires every tick from the first one on\n");
+                "the log is damaged: missing parts could not be compared, and a replay requires "
+                "every tick from the first one on\n");
         }
         if (!result.good()) exit_code = kFailed;
     });

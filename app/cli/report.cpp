@@ -19,7 +19,7 @@ struct ReportOptions {
     std::vector<std::string> paths;
     std::string rehearsed;
     std::string out;
-    bool tables = false;  // without a page
+    bool tables = false;  // tables only, no page
 };
 
 /// The folder with the sessions of a study's participants. Throws Error when there is none yet.
@@ -37,12 +37,12 @@ void check_options(const ReportOptions& options) {
     const bool one = options.paths.size() == 1;
     if (!options.rehearsed.empty() && !(one && is_study(first))) {
         if (one) throw Error({first, 0}, "", "is not a study's file", "Leave out --rehearsed.");
-        throw Error({"--rehearsed", 0}, "", "is valid only with one study alone",
-                    "Leave it out, and name the folder sessions of the rehearsal as a path.");
+        throw Error({"--rehearsed", 0}, "", "is valid only with a single study",
+                    "Leave it out, and give the rehearsal's 'sessions' folder as a path.");
     }
     if (!options.out.empty() && options.tables)
         throw Error(
-            {"--out", 0}, "", "is for the page, and --tables draws none",
+            {"--out", 0}, "", "is for the page, but --tables draws none",
             "Leave out one of the two: tables are written to the folders of their sessions.");
     if (!options.out.empty() && one)
         throw Error({"--out", 0}, "", "is valid only with several paths",
@@ -52,7 +52,7 @@ void check_options(const ReportOptions& options) {
                     "Name one with --out, or add --tables.");
 }
 
-/// Makes the folder for the page. Throws Error when it cannot.
+/// Makes the folder for the page. Throws Error when this fails.
 void make_folder(const std::string& folder) {
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
@@ -61,7 +61,7 @@ void make_folder(const std::string& folder) {
                     "Name a folder in which you may write with --out.");
 }
 
-/// Writes the tables of all paths, and says what is wrong with the sessions.
+/// Writes the tables of all paths, and reports what is wrong with the sessions.
 analysis::ReportResult write_tables_of(const ReportOptions& options) {
     analysis::ReportResult result;
     {

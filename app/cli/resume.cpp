@@ -45,9 +45,10 @@ void add_resume(CLI::App& app) {
         ->check(CLI::Range(0.05, 3600.0));
     command->footer(
         "\nFinished trials stay; the interrupted one is repeated. The new session's\ntrials.csv "
-        "has all of them. The hand has the same mover again: a person at devices, the "
-        "file's\nscript, a simulated person. Trials done by mouse continue in the window (dihaptic "
-        "gui).\n\nExample:\n  dihaptic resume sessions/2026-01-31_093000_visuomotor-rotation_S07");
+        "contains all trials. The hand is moved by the same source as before: a person "
+        "at\ndevices, the file's script, or a simulated person. Trials done by mouse continue in "
+        "the window\n(dihaptic gui).\n\nExample:\n  dihaptic resume "
+        "sessions/2026-01-31_093000_visuomotor-rotation_S07");
     command->callback([options] { resume_session(options->session, options->out, options->sync); });
 }
 

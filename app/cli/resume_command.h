@@ -6,7 +6,8 @@
 namespace dihaptic::cli {
 
 /// Continues an interrupted session. `out`: folder for the new session; empty: next to the old one.
-/// `sync`: interval at which the recording is synchronised to the disk [s]; 0: at its end.
+/// `sync`: interval at which the recording is synchronised to the disk [s]; 0: only at the
+/// session's end.
 void resume_session(const std::string& folder, const std::string& out, double sync);
 
 }  // namespace dihaptic::cli

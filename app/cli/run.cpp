@@ -42,7 +42,8 @@ struct SessionOptions {
     std::string between;
     std::string despite;    ///< reason to begin a study's session against its rules
     std::string unstudied;  ///< an option that was given, and is not possible for a study
-    std::optional<uint64_t> person_seed;  ///< of a study's simulated person; none: the session's
+    /// Seed of a study's simulated person; if empty, the session's seed is used.
+    std::optional<uint64_t> person_seed;
 };
 
 /// Progress in words, e.g. "trial 12 of 96"; empty without trials. `share`: share of completed
@@ -250,8 +251,8 @@ struct MovementFigures {
         v("mostly_bridged", f.mostly_bridged, "", "whether more than half is bridged");
         v("faults", f.faults, "1", "number of its faults");
         v("block", f.block, "mm", "width of the block");
-        v("grasp_mean_grip", f.mean_grip, "N", "mean grip force in the phase grasp");
-        v("grasp_peak_grip", f.peak_grip, "N", "largest grip force in the phase grasp");
+        v("grasp_mean_grip", f.mean_grip, "N", "mean grip force in the phase 'grasp'");
+        v("grasp_peak_grip", f.peak_grip, "N", "largest grip force in the phase 'grasp'");
         v("peak_force", f.peak_force, "N", "largest force in the session");
         v("force_limited_ticks", f.force_limited, "1", "ticks in which a force was limited");
         v("rate_limited_ticks", f.rate_limited, "1", "ticks in which a force's rate was limited");
@@ -318,7 +319,7 @@ std::vector<std::string> movements_in(const std::string& folder) {
     }
     std::sort(files.begin(), files.end());
     if (files.empty()) {
-        throw Error({folder, 0}, "", "this folder has no .csv or .tsv file",
+        throw Error({folder, 0}, "", "this folder contains no .csv or .tsv file",
                     "Name a movement, or a folder of them.");
     }
     return files;
@@ -415,7 +416,7 @@ void run(SessionOptions& options) {
         return;
     }
     if (options.simulate && options.clock == "real")
-        throw Error({"--simulate", 0}, "", "is on the virtual clock", "Leave out --clock real.");
+        throw Error({"--simulate", 0}, "", "runs on the virtual clock", "Leave out --clock real.");
     options.request.simulate = options.simulate;
     const bool real = session::on_real_devices(options.request);
     if (real && options.clock == "virtual") {
@@ -427,7 +428,7 @@ void run(SessionOptions& options) {
         real || options.clock == "real" ? session::Clock::real : session::Clock::virtual_clock;
     options.run.command = command_line();
     const bool task = has_task(options.request.file);
-    // only a person has these data
+    // only a person can be asked
     if (real && task) ask(options.run.participant);
     if (options.simulate && task)
         options.run.participant.id = recording::simulated_id(options.run.participant.id);
@@ -449,7 +450,8 @@ void add_simulated_person(CLI::App* command, const std::shared_ptr<SessionOption
                             "program's own, as in populations/adults.yaml");
     population->transform(given_or_kept())->needs(simulate);
     command
-        ->add_flag("--real-objects", options->real_objects, "the person grips as without a device")
+        ->add_flag("--real-objects", options->real_objects,
+                   "the person grips as they would without a device")
         ->needs(simulate)
         ->excludes(population);
 }
@@ -489,7 +491,7 @@ void add_run(CLI::App& app) {
     command
         ->add_option(
             "--movement", options->request.movement,
-            "recorded movement (CSV) that pulls the simulated fingers, or a folder of them")
+            "recorded movement (CSV) that pulls the simulated fingers, or a folder of movements")
         ->transform(given_or_kept());
     command->add_option("--rig", options->request.rig, "rig file, in place of the experiment's")
         ->transform(given_or_kept());
@@ -515,7 +517,8 @@ void add_run(CLI::App& app) {
         ->check(seed_range())
         ->capture_default_str();
     command->add_option("--between", options->between,
-                        "UNIX socket of a program that decides between trials: docs/python.md");
+                        "UNIX socket of a program that decides, after each trial, what comes "
+                        "next: docs/python.md");
     command->add_option("--set", options->request.set,
                         "any setting, e.g. coupling.stiffness_N_m=600; may be repeated");
     command->footer(

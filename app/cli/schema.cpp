@@ -36,7 +36,8 @@ void make_schemas(const std::string& kind, const std::string& folder) {
 void add_schema(CLI::App& app) {
     auto* command = app.add_subcommand(
         "schema",
-        "Print the JSON Schema of a kind of file, with which editors complete and check it");
+        "Print the JSON Schema of a kind of file, with which editors complete and check such "
+        "files");
     auto kind = std::make_shared<std::string>();
     auto folder = std::make_shared<std::string>();
     std::string kinds;

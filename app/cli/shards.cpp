@@ -30,7 +30,7 @@ std::string sbatch_name(const std::string& name) {
     for (const char letter : name) {
         if (letter == '"' || letter == '\\' || static_cast<unsigned char>(letter) < ' ') {
             throw Error({name, 0}, "",
-                        "has a character that Slurm does not accept in a folder's name",
+                        "contains a character that Slurm does not accept in a folder's name",
                         "Choose a folder without \", \\ and control characters: --out FOLDER.");
         }
         out += letter == '%' ? std::string("%%") : std::string(1, letter);
@@ -92,20 +92,19 @@ void write_slurm_script(const std::string& folder, const Asked& asked) {
     make_folders(folder, "slurm");  // Slurm does not create the folder for its logs
     if (has_script(folder, asked)) return;
     write_file(
-        fmt::format(
-            "{3}"
-            "# A rehearsal in {0} shards, each of which is a task of a Slurm array.\n"
-            "# To submit all of them:         sbatch slurm.sh\n"
-            "# To submit only the third one:  sbatch --array=3 slurm.sh\n"
-            "# People who are complete are not done again. If your cluster requires an account, a\n"
-            "# partition or a time limit, add it below, in lines that begin with #SBATCH.\n"
-            "#SBATCH --job-name=dihaptic\n"
-            "#SBATCH --array=1-{0}\n"
-            "#SBATCH --ntasks=1\n"
-            "#SBATCH --cpus-per-task=1\n"
-            "#SBATCH --output=\"{1}/slurm/%a.log\"\n"
-            "{2}",
-            asked.shards, sbatch_name(whole.string()), task_line(asked), kShell),
+        fmt::format("{3}"
+                    "# A rehearsal in {0} shards, each of which is a task of a Slurm array.\n"
+                    "# To submit all of them:         sbatch slurm.sh\n"
+                    "# To submit only the third one:  sbatch --array=3 slurm.sh\n"
+                    "# Completed people are not repeated. If your cluster requires an account, a\n"
+                    "# partition or a time limit, add it below, in lines that begin with #SBATCH.\n"
+                    "#SBATCH --job-name=dihaptic\n"
+                    "#SBATCH --array=1-{0}\n"
+                    "#SBATCH --ntasks=1\n"
+                    "#SBATCH --cpus-per-task=1\n"
+                    "#SBATCH --output=\"{1}/slurm/%a.log\"\n"
+                    "{2}",
+                    asked.shards, sbatch_name(whole.string()), task_line(asked), kShell),
         slurm_script(folder));
 }
 
@@ -140,7 +139,7 @@ std::optional<std::string> submit(const std::string& folder, const Asked& asked,
                     {slurm_script(folder), 0},
                     "",
                     "is refused by sbatch, whose reason is printed above",
-                    "Solve this problem, then type this."}});
+                    "Solve this problem, then type the command below."}});
             fmt::print(stderr, "{}\n", again);
         }
         exit_code = kBadInput;

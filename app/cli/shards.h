@@ -10,7 +10,7 @@
 
 namespace dihaptic::cli {
 
-/// The shell script for sbatch in a rehearsal's folder: a task of the array for each shard.
+/// Path of the shell script for sbatch in a rehearsal's folder; each shard is a task of its array.
 std::string slurm_script(const std::string& folder);
 /// Writes the script, unless there is already one for the same shards, perhaps with added lines.
 void write_slurm_script(const std::string& folder, const session::Asked& asked);

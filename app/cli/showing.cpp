@@ -60,7 +60,7 @@ Showing open_plan(const std::string& file) {
     };
     auto run = std::make_shared<Run>();
     session::Request request;
-    request.order_number = 1;  // a picture needs some order of trials, and nobody's in particular
+    request.order_number = 1;  // a picture needs an order of trials, but no particular person's
     request.file = file;
     if (session::on_real_devices(request)) {
         throw Error({file, 0}, "rig", "pictures can be made only with simulated devices",

@@ -21,8 +21,8 @@ struct Showing {
     scene::Scene scene;
     rig::Rig rig;
     std::vector<view::Workspace> workspaces;    ///< workspaces of devices, where known
-    double duration = 0;                        ///< planned [s]; 0: not known
-    bool recorded = false;                      ///< whether it is a session
+    double duration = 0;                        ///< planned duration [s]; 0: unknown
+    bool recorded = false;                      ///< whether this is a recorded session
     std::function<const frame::Frame*()> next;  ///< the next frame; null at the end
 };
 
@@ -55,7 +55,7 @@ class Drawer {
 
   private:
     view::Camera camera_;
-    std::optional<display::Display> display_;  // in place of the camera
+    std::optional<display::Display> display_;  // drawn in place of the camera's view
     view::Overlays overlays_;
     bool path_wanted_ = false;
     int object_ = -1;

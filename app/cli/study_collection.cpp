@@ -101,15 +101,15 @@ TextTable participants(const study::StudyFile& study, const study::Roster& roste
                    {"group", "group of the study, or the code that conceals it"},
                    {"number", "number of the participant in the group, from 1"},
                    {"age", "age of the participant", "years"},
-                   {"sex", "as told: F, M, O (other) or U (not stated)"},
-                   {"handedness", "as told: right, left or both"}},
+                   {"sex", "as stated: F, M, O (other) or U (not stated)"},
+                   {"handedness", "as stated: right, left or both"}},
                   {}};
     for (const study::FactSpec& fact : study.facts)
         out.columns.push_back({fact.name, "fact that the study asks of every participant"});
     const std::vector<Table::Column> last{
         {"added", "when the participant was added, ISO 8601"},
         {"version", "version of the study's files when the participant was added"},
-        {"withdrawn", "when the participant withdrew, ISO 8601; empty: takes part"}};
+        {"withdrawn", "when the participant withdrew, ISO 8601; empty if taking part"}};
     out.columns.insert(out.columns.end(), last.begin(), last.end());
     for (const study::Member& m : roster.participants) {
         std::vector<std::string> row{
@@ -171,7 +171,7 @@ std::vector<std::string> strangers(const study::StudyFile& study, const study::R
     return out;
 }
 
-/// Describes a missing session, with its unmet needs if the previous session is there.
+/// Describes a missing session, with its unmet needs if the previous session exists.
 std::string missing_session(const study::SessionSpec& session, const study::Member& member,
                             const study::Visit* before) {
     std::string out = fmt::format("missing: {} of {}", session.name, member.id);
@@ -187,8 +187,8 @@ size_t column_of(const TextTable& table, const std::string& name) {
 }
 
 /// The tables of a session. Those of trials have the rows of all its parts; the lifts of earlier
-/// parts are added here, if trials.csv has their attempts. An interrupted attempt may occur again
-/// in the next part, which counts.
+/// parts are added here, if trials.csv has their attempts. If an interrupted attempt occurs again
+/// in a later part, the later one is taken.
 std::vector<TextTable> tables_of_parts(const CompleteSession& session) {
     std::vector<TextTable> out = tables_of(session.folder);
     if (session.parts.size() < 2) return out;
@@ -210,7 +210,7 @@ std::vector<TextTable> tables_of_parts(const CompleteSession& session) {
         const auto attempt_of = attempts_in(*lifts);
         std::erase_if(lifts->rows,
                       [&](const auto& row) { return attempts.erase(attempt_of(row)) == 0; });
-        out.insert(out.begin() + others, std::move(*lifts));  // in the order of the parts
+        out.insert(out.begin() + others, std::move(*lifts));  // keeps the order of the parts
     }
     return out;
 }
@@ -223,8 +223,8 @@ StudySessions::StudySessions(const study::StudyFile& study)
         throw Error(
             {study.data + "/participants.yaml", 0}, "",
             "names nobody, but there are recordings in " + study.data + "/sessions",
-            "Restore the list of participants. Sessions of 'dihaptic run --simulate' do not "
-            "count: rehearse the study.");
+            "Restore the list of participants. Sessions of 'dihaptic run --simulate' are not "
+            "included: rehearse the study.");
     for (const study::Member& member : roster_.participants) {
         const auto visits = session::visits_of(study, member);
         const study::Visit* before = nullptr;

@@ -11,9 +11,9 @@
 
 namespace dihaptic::cli {
 
-/// The data of a study that a command is about.
+/// The study that a command is about, and where its data are.
 struct StudyData {
-    std::string file;       ///< of the study
+    std::string file;       ///< the study's file
     std::string rehearsed;  ///< folder of a rehearsal; empty: the study's own participants
     bool reveal_groups = false;
 };
@@ -55,7 +55,7 @@ class StudySessions {
 std::vector<TextTable> tables_of(const study::StudyFile& study, const StudySessions& sessions,
                                  const StudyData& data);
 
-/// Notes in the study's log that the groups have been named there, if they are concealed.
+/// Notes in the study's log that the groups have been named in `where`, if they are concealed.
 void note_revealed(const study::StudyFile& study, const StudyData& data, const std::string& where);
 
 /// Writes the tables into a folder; empty: tables/ next to the participants' file.

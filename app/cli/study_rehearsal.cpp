@@ -72,7 +72,7 @@ class FactDraw {
 /// group is full are skipped.
 void add_people(const study::StudyFile& study, const StudyRehearsal& rehearsal,
                 study::Roster& roster) {
-    constexpr int kMostDraws = 100;  // for each person
+    constexpr int kMostDraws = 100;  // draws for each person
     while (static_cast<int>(roster.participants.size()) < rehearsal.people) {
         const std::string id = session::person_id(static_cast<int>(roster.participants.size()) + 1);
         FactDraw facts(study, rehearsal.seed, id);
@@ -94,7 +94,8 @@ void add_people(const study::StudyFile& study, const StudyRehearsal& rehearsal,
     }
 }
 
-/// The person: of the population's group with the name of the study's group, if there is one.
+/// Draws the person from the population's group that has the name of the study's group, if there is
+/// one.
 person::Traits traits_of(const person::Population& population, uint64_t seed,
                          const study::Member& member) {
     const auto named = std::ranges::find(population.groups, member.group, &person::Group::name);
@@ -141,8 +142,8 @@ class Rehearsing {
     }
 
     /// Runs all incomplete sessions of a person, each with what was learned in earlier ones. For
-    /// this, a complete session before an incomplete one is run again, and not kept. Returns the
-    /// exit status.
+    /// this, a complete session before an incomplete one is run again, but this run is not kept.
+    /// Returns the exit status.
     int run(const std::string& id) const {
         const study::Member& member = *roster_.find(id);
         Memories learned;
@@ -166,7 +167,7 @@ class Rehearsing {
         return session::has_session(folder(member, session) + "/" + kRehearsed);
     }
     /// Why a person does not go on from a complete session to this one; empty if this one is done
-    /// or may be.
+    /// or may be done.
     std::vector<std::string> unmet_needs(const study::Member& member, size_t session) const {
         if (session == 0 || is_complete(member, session) || !is_complete(member, session - 1))
             return {};
@@ -199,8 +200,8 @@ class Rehearsing {
         return true;
     }
 
-    /// Returns the folder of the session; empty if it did not end well. `learned`: before it, and
-    /// then after it.
+    /// Returns the folder of the session; empty if it did not end well. `learned`: what was learned
+    /// before the session; afterwards, what is known after it.
     std::string record(const study::Member& member, size_t index, const std::string& out,
                        bool keep_log, Memories& learned) const {
         session::Request request;
@@ -216,7 +217,7 @@ class Rehearsing {
         if (plan.task) {
             const auto traits = [&](const study::Member& of) {
                 person::Traits drawn = traits_of(rehearsal_.population, rehearsal_.seed, of);
-                if (study_.allocation.concealed) drawn.group.clear();  // it would name the study's
+                if (study_.allocation.concealed) drawn.group.clear();  // would reveal the study's
                 return drawn;
             };
             study::Member other = member;
@@ -248,7 +249,7 @@ class Rehearsing {
     const study::Roster& roster_;
 };
 
-/// Throws Error when the folder has the rehearsal of other files.
+/// Throws Error when the folder holds a rehearsal of other files.
 void claim(const study::StudyFile& study, const StudyRehearsal& rehearsal) {
     session::StudyVersion now = session::present_version(study);
     now.study.set("rehearsed with seed", Node::of(number_text(rehearsal.seed)));

@@ -8,7 +8,7 @@
 namespace dihaptic::cli {
 
 struct StudyRehearsal {
-    std::string file;  ///< of the study
+    std::string file;  ///< the study's file
     std::string out;   ///< folder; empty: rehearsal/ next to the study's file
     int people = 0;    ///< 0: as many as the study asks for
     int jobs = 1;

@@ -25,7 +25,7 @@ const study::Member& member_of(const study::StudyFile& study, const study::Roste
     }
     if (!member->takes_part()) {
         throw Error({"--participant", 0}, id, fmt::format("withdrew on {}", member->withdrawn),
-                    "Add another participant in this one's place.");
+                    "Add another participant in place of this one.");
     }
     return *member;
 }

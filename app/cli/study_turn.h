@@ -15,7 +15,7 @@ struct StudyTurn {
     std::string resume;      ///< folder of the interrupted session to be resumed; empty: none
     recording::Participant participant;
     recording::InStudy in_study;
-    uint64_t seed = 1;         ///< its own for each participant and session
+    uint64_t seed = 1;         ///< differs between participants and sessions
     uint64_t person_seed = 1;  ///< for drawing the simulated person; the same in all sessions
 
     /// Notes in the study's log that the session begins.
@@ -27,8 +27,8 @@ struct StudyTurn {
 
 /// What comes next for a participant, or for the simulated person who takes the participant's
 /// place. `despite`: reason to begin a session against the study's rules, which is logged; empty:
-/// such a session is refused. Throws Error when no session may begin now, with the figures that
-/// forbid it, or when the study's files have changed.
+/// such a session is refused. Throws Error when no session may begin now (the message gives the
+/// numbers that rule it out), or when the study's files have changed.
 StudyTurn study_turn(const std::string& file, const std::string& participant,
                      const std::string& despite, bool simulated);
 

@@ -28,13 +28,13 @@ std::string describe(const analysis::Episode& e) {
         add(e.least_slip, fmt::format("least {:.4f} mm", e.least_slip * 1e3));
     add(e.sag, fmt::format("sank {:.4f} mm", std::abs(e.sag) * 1e3));
     if (e.hand_turn / kDegree >= 5) {
-        add(e.turn, fmt::format("turned {:.2f} deg, {:.4f} of the hand's", e.turn / kDegree,
+        add(e.turn, fmt::format("turned {:.2f} deg, {:.4f} of the hand's turn", e.turn / kDegree,
                                 e.turn / e.hand_turn));
     }
     add(e.distance, fmt::format("{:.2f} mm", e.distance * 1e3));
     add(e.friction_ratio, fmt::format("friction {:.4f} of mu N", e.friction_ratio));
     add(e.release_speed, fmt::format("let go at {:.4f} m/s", e.release_speed));
-    add(e.release_ratio, fmt::format("{:.4f} of the hand's", e.release_ratio));
+    add(e.release_ratio, fmt::format("{:.4f} of the hand's speed", e.release_ratio));
     add(e.rise, fmt::format("rose {:.2f} mm", e.rise * 1e3));
     add(e.off_path, fmt::format("{:.6f} mm off the ballistic path", e.off_path * 1e3));
     return out;
@@ -140,7 +140,7 @@ void print_trials(const Table& trials) {
     }
     fmt::print("\n");
     if (!reaches) return;
-    fmt::print("hand: mean {}; trials.csv has that of each trial\n",
+    fmt::print("hand: mean {}; trials.csv gives it for each trial\n",
                extents ? "length of the handle's first stroke toward the target"
                        : "angle of the handle from the target's direction");
 }

@@ -19,7 +19,7 @@ void make_video(const ViewOptions& options) {
         ProgressLine line("drawing");
         frame::Frame shown;
         while (const frame::Frame* frame = showing.next()) {
-            // the newest frame at each picture's time; where a log has a gap the picture stands
+            // the newest frame at each picture's time; where a log has a gap, the picture stands
             // still
             while (!shown.bodies.empty() &&
                    seconds(frame->time) > static_cast<double>(pictures) / kRate + 1e-9) {
@@ -61,7 +61,8 @@ void add_video(CLI::App& app) {
     add_view_options(*command, options);
     command->add_option("-o,--out", options->out, "the video, an MP4 file")->capture_default_str();
     command->footer(
-        "\nIts time is the session's. It requires the Debian package ffmpeg.\n\nExample:\n  "
+        "\nThe video's time is the session's. This command requires the Debian package "
+        "ffmpeg.\n\nExample:\n  "
         "dihaptic video sessions/2026-11-20_101500_lift-block --show forces -o lift.mp4");
     command->callback([options] { make_video(*options); });
 }

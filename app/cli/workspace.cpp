@@ -34,7 +34,7 @@ void check_wall(const rig::Rig& rig, const std::vector<rig::Reach>& reaches) {
         fmt::print("all devices reach\n");
         return;
     }
-    fmt::print("not all devices reach: {:.1f} % of it\n", out * 100);
+    fmt::print("not all devices reach, in {:.1f} % of it\n", out * 100);
     exit_code = kFailed;
 }
 

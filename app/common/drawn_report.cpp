@@ -12,7 +12,7 @@
 #include "analysis/report/report_json.h"
 #include "base/child.h"
 #include "base/descriptor.h"
-#include "base/installed.h"
+#include "common/package.h"
 
 namespace dihaptic::app {
 namespace {
@@ -46,12 +46,6 @@ Error no_page(const std::string& folder, const std::string& why, const std::stri
 
 }  // namespace
 
-std::string python_folder() {
-    const std::string facts = in_or_above_program(
-        {"python/dihaptic/facts.json", "lib/python3/dist-packages/dihaptic/facts.json"});
-    return facts.empty() ? "" : std::filesystem::path(facts).parent_path().parent_path().string();
-}
-
 void draw_page(const analysis::ReportResult& result, const std::string& command, PythonSays says) {
     const std::string folder = std::filesystem::path(result.page()).parent_path();
     const std::string package = python_folder();
@@ -61,19 +55,12 @@ void draw_page(const analysis::ReportResult& result, const std::string& command,
                       "add --tables, which needs no Python.");
     const Descriptor description = in_memory(analysis::report_json(result, command));
     const Descriptor said = in_memory("");
-    // another Python, such as Anaconda's, does not have the package; -I keeps out what is in the
-    // current folder, the environment and the user's own packages
-    const std::string code_of =
-        "import sys; sys.path.insert(0, sys.argv.pop(1)); from dihaptic.reports.__main__ import "
-        "main; sys.exit(main(sys.argv[1:]))";
-    Launch launch{"/usr/bin/env",
-                  {"MPLBACKEND=agg", "/usr/bin/python3", "-I", "-c", code_of, package},
-                  {description.get(), Launch::kKept, Launch::kKept},
-                  Launch::kFreshSignals};
+    Launch launch = python_launch(package, "dihaptic.reports.__main__");
+    launch.files[0] = description.get();
     launch.arguments.insert(launch.arguments.end(), result.paths.begin(), result.paths.end());
     if (says == PythonSays::in_error)
         launch.files = {description.get(), Launch::kNothing, said.get()};
-    std::fflush(stdout);  // before the child's own lines
+    std::fflush(stdout);  // so that this comes before the child's own lines
     Child python;
     const int failed = description && said ? python.start(launch) : errno;
     if (failed != 0)

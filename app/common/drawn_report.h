@@ -7,9 +7,6 @@
 
 namespace dihaptic::app {
 
-/// The folder in which Python finds the package dihaptic, here or installed; "" if there is none.
-std::string python_folder();
-
 /// Where Python's own messages go: to the terminal at once, or into the Error, for a window without
 /// a terminal.
 enum class PythonSays { on_terminal, in_error };

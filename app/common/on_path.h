@@ -11,7 +11,7 @@ std::string found_on(const std::string& paths, const std::string& program);
 /// Whether a shell finds this program under the name `dihaptic`. `paths`: its PATH.
 bool shell_finds_program(const std::string& paths);
 
-/// The command after which a shell finds it.
+/// The command after which a shell finds this program.
 std::string path_command();
 
 }  // namespace dihaptic::app

@@ -51,7 +51,7 @@ void stop_on_signals(std::atomic<bool>& stop, int wake) {
         const bool nohup = signal == SIGHUP && before.sa_handler == SIG_IGN;
         const bool anothers = (before.sa_flags & SA_SIGINFO) != 0 ||
                               (before.sa_handler != SIG_IGN && before.sa_handler != SIG_DFL);
-        if (!nohup && !anothers) handle(signal, on_signal);  // another's: e.g. a profiler's
+        if (!nohup && !anothers) handle(signal, on_signal);  // e.g. a profiler's handler stays
     }
     // writing to a pipe without a reader, or beyond a quota, then fails with an error instead
     handle(SIGPIPE, SIG_IGN);

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "solids.h"
-// after Nef polyhedra: these do not compile before them
+// after Nef polyhedra, before which these do not compile
 #include <CGAL/Nef_3/Mark_bounded_volumes.h>
 #include <CGAL/Nef_nary_union_3.h>
 

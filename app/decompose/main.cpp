@@ -13,7 +13,7 @@
 // and for each piece a line "piece COUNT" and then COUNT vertices, one per line.
 #include "arrangement.h"
 #include "solids.h"
-// after Nef polyhedra: these do not compile before them
+// after Nef polyhedra, before which these do not compile
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polyhedron_incremental_builder_3.h>
 #include <CGAL/convex_decomposition_3.h>
@@ -29,7 +29,7 @@ namespace {
 
 using namespace dihaptic::decompose;
 
-/// Whether volumes are equal up to rounding.
+/// Relative difference up to which volumes are taken as equal.
 constexpr double kSame = 1e-9;
 
 struct Shell {
@@ -186,7 +186,7 @@ int main(int count, char** arguments) {
     } catch (const std::bad_alloc&) {
         return 3;
     } catch (const std::exception&) {
-        // the output gives the point; there are no pieces
+        // the output gives the point, and no pieces
     }
     std::cout.flush();
     return std::cout ? 0 : 1;

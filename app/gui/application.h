@@ -16,8 +16,8 @@ class Application : public QApplication {
     /// otherwise read 0.5 as 0.
     Application(int& argc, char** argv);
     bool notify(QObject* receiver, QEvent* event) override;
-    /// From now on texts are in the system's language, if the folder has dihaptic_LANGUAGE.qm: the
-    /// window's and Qt's own.
+    /// From now on, the window's texts and Qt's own are in the system's language, if the folder
+    /// contains dihaptic_LANGUAGE.qm.
     void translate(const QString& folder);
 
   Q_SIGNALS:

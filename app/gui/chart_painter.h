@@ -48,12 +48,12 @@ class ChartPainter {
     QColor ink(int alpha = 255) const;
     /// Draws the lines of the scale, with their numbers; `decimals` -1: as many as they need.
     void draw_values(int decimals = -1) const;
-    /// Writes a text below the area; `lined`: with a line up from there.
+    /// Writes a text below the area; `lined`: with a faint line up through the area.
     void draw_tick(double where, const QString& text, bool lined = false) const;
     void draw_upright(double where, const QPen& pen) const;
     /// Joins points in the chart's units; NaN leaves a gap.
     void draw_curve(const std::vector<QPointF>& points, const QPen& pen) const;
-    /// In the widget's units.
+    /// Draws a dot; `centre` is in the widget's units.
     void draw_dot(const QPointF& centre, const QColor& colour) const;
     void draw_legend(double left, double top, const std::vector<Entry>& entries, Mark mark) const;
     /// Width of a legend of lines [pixels].

@@ -70,7 +70,7 @@ CodeEdit::CodeEdit(QWidget* parent)
     new Colours(document());
     words_->setWidget(this);
     words_->setModel(new QStandardItemModel(words_));
-    words_->setCompletionRole(Qt::UserRole);  // only the word
+    words_->setCompletionRole(Qt::UserRole);  // inserts only the word
     words_->setMaxVisibleItems(12);
     words_->popup()->setFont(font);
     connect(words_, qOverload<const QModelIndex&>(&QCompleter::activated), this,
@@ -229,7 +229,7 @@ void CodeEdit::take_word(const QModelIndex& word) {
     setTextCursor(cursor);
 }
 
-/// YAML does not allow tabs, and a new line mostly continues at the indentation of the last one.
+/// YAML does not allow tabs, and a new line usually continues at the indentation of the last one.
 void CodeEdit::keyPressEvent(QKeyEvent* event) {
     const bool choosing = words_->popup()->isVisible();
     if (choosing && QList<int>{Qt::Key_Return, Qt::Key_Enter, Qt::Key_Tab, Qt::Key_Escape}.contains(

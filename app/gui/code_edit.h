@@ -23,10 +23,10 @@ class CodeEdit : public PlainText {
     void go_to(int line);
     /// The present text, with a line feed after each line but the last.
     QString text() const;
-    /// Replaces parts of text(), by its bytes in UTF-8: one step of undo. The cursor keeps its
-    /// position.
+    /// Replaces parts of text(), given by positions in its UTF-8 bytes, as one step of undo. The
+    /// cursor keeps its position.
     void change(const std::vector<TextChange>& changes);
-    /// Offers words for the position of the cursor, if it is still there and any words fit.
+    /// Offers words for this position, if the cursor is still at it and any words fit.
     void offer(const WordPlace& place, const std::vector<Choice>& words);
 
   Q_SIGNALS:

@@ -100,7 +100,7 @@ void Composer::show_content() {
     const bool text = is_text(content);
     edit_->setPlainText(text ? QString::fromUtf8(content) : "");
     edit_->document()->setModified(false);
-    pause_.stop();  // no user typed this
+    pause_.stop();  // this text was not typed by the user
     edit_->setReadOnly(!text || !file_.was_readable() || !QFileInfo(file_.name()).isWritable());
 }
 
@@ -119,7 +119,7 @@ void Composer::look_again() {
         return read_file(QString(file_.name()));
     edit_->setReadOnly(false);
     edit_->document()->setModified(true);
-    note(tr("%1 is no longer there, or cannot be read. Its text is kept here: Ctrl+S writes it "
+    note(tr("%1 no longer exists, or cannot be read. Its text is kept here: Ctrl+S writes it "
             "again.")
              .arg(file_.name()));
 }
@@ -149,7 +149,7 @@ void Composer::offer(const Draft::Left& left) {
     auto* go_on = offer_->addButton(tr("&Continue with it"), QMessageBox::AcceptRole);
     auto* discard = offer_->addButton(tr("&Discard it"), QMessageBox::DestructiveRole);
     offer_->setDefaultButton(go_on);
-    offer_->setEscapeButton(go_on);  // this loses nothing
+    offer_->setEscapeButton(go_on);  // continuing loses nothing
     connect(offer_, &QDialog::finished, this, [this, discard, text = left.text] {
         const bool discarded = offer_->clickedButton() == discard;
         offer_ = nullptr;
@@ -159,7 +159,7 @@ void Composer::offer(const Draft::Left& left) {
     offer_->open();
 }
 
-/// As an undoable step: the state before it is the file's content.
+/// Takes the text as an undoable step, before which the state is the file's content.
 void Composer::take(const QString& text) {
     edit_->setReadOnly(false);
     QTextCursor cursor(edit_->document());
@@ -226,7 +226,7 @@ std::string Composer::body() const {
 }
 
 bool Composer::move(const std::string& body, const BodyWay& way) {
-    if (edit_->isReadOnly()) return false;  // this note is always shown
+    if (edit_->isReadOnly()) return false;  // a note about this is always shown
     if (body.empty()) {
         state_->setText(tr("The cursor is not in the lines of a body: nothing moves."));
         return false;
@@ -303,7 +303,8 @@ bool Composer::save_as(const QString& file) {
 
 void Composer::note(const QString& text) {
     QStringList all;
-    if (file_.is_link()) all += tr("This is a link: it is saved to %1.").arg(file_.path());
+    if (file_.is_link())
+        all += tr("This file is a link: the text is saved to %1.").arg(file_.path());
     if (draft_ && !has_draft_)
         all += tr("Another window has %1 open. Text typed here does not survive a crash, and "
                   "Ctrl+S asks before it overwrites the version saved there.")
@@ -329,8 +330,8 @@ void Composer::show_state() {
         all += is_text(file_.content())
                    ? tr("This file cannot be written: first save it under a name of your own "
                         "(Ctrl+Shift+S).")
-                   : tr("This file is not UTF-8 text, or has control characters: it is not shown, "
-                        "and cannot be edited here.");
+                   : tr("This file is not UTF-8 text, or contains control characters: it is not "
+                        "shown, and cannot be edited here.");
     else if (!problems_.isEmpty())
         all += problems_;
     state_->setText(all.join("\n"));

@@ -25,7 +25,7 @@ class Composer : public QWidget {
     explicit Composer(QWidget* parent = nullptr);
     ~Composer() override;
 
-    /// Shows a file; unsaved changes of another one are lost. If the file is already open, checks
+    /// Shows a file; unsaved changes of another file are lost. If the file is already open, checks
     /// its state, and reads it again if another program changed it and the user did not.
     void open(const QString& file);
     bool changed() const { return edit_->document()->isModified(); }
@@ -73,7 +73,7 @@ class Composer : public QWidget {
     void redo_available(bool available);
     /// The cursor moved, or the text changed, so it may be in another body's lines.
     void cursor_moved();
-    /// As in CodeEdit.
+    /// The same signal as in CodeEdit.
     void step_wanted(const QKeyEvent& event);
 
   private:
@@ -108,7 +108,7 @@ class Composer : public QWidget {
     bool has_draft_ = false;       // whether this window, not another, holds the draft
     bool leaves_ = false;          // whether the draft is left when this ends
     QPointer<QMessageBox> offer_;  // offer of a draft about which the user has not decided yet
-    QString note_;                 // about the state of the file
+    QString note_;                 // note about the state of the file
     QString notes_;                // all notes shown
     QString problems_;             // problems of the text, as shown
     CodeEdit* edit_;

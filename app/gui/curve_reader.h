@@ -23,7 +23,7 @@ class CurveReader : public QObject {
     Q_OBJECT
 
   public:
-    /// Parts of the stretch.
+    /// Number of parts into which the stretch is divided.
     static constexpr size_t kParts = 1500;
 
     using QObject::QObject;
@@ -35,11 +35,12 @@ class CurveReader : public QObject {
         double begin = 0;  ///< start of the stretch [s]
         double end = 0;
     };
-    /// Earlier requests are dropped.
+    /// Reads these curves; earlier requests are dropped.
     void read(const Wanted& wanted);
 
   Q_SIGNALS:
-    /// All curves, each up to the point that was reached; `share`: of the stretch that was read.
+    /// All curves, each up to the point that was reached; `share`: share of the stretch that has
+    /// been read.
     void progressed(const std::vector<dihaptic::gui::RecordedCurve>& curves, double share);
 
   private:

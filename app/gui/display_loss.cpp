@@ -2,7 +2,7 @@
 
 #include <QString>
 
-#include <X11/Xlib.h>  // last, because it defines ordinary words as macros
+#include <X11/Xlib.h>  // included last, because it defines ordinary words as macros
 
 namespace dihaptic::gui {
 namespace {
@@ -11,7 +11,7 @@ void (*lost)() = nullptr;
 QtMessageHandler usual_messages = nullptr;
 XIOErrorHandler usual_end = nullptr;
 
-/// After some messages Qt ends the program at once; on Wayland not even by exit().
+/// After some messages Qt ends the program at once; on Wayland it does not even call exit().
 void on_message(QtMsgType type, const QMessageLogContext& context, const QString& text) {
     usual_messages(type, context, text);
     if (type == QtFatalMsg || text.startsWith("The Wayland connection ") ||

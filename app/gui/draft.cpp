@@ -63,7 +63,7 @@ bool Draft::take() {
                 "Check the folder's permissions.");
 }
 
-/// Sets errno; ENOENT: the previous window removed the draft meanwhile.
+/// Sets errno; ENOENT means that the previous window has just removed the draft.
 bool Draft::try_lock() {
     const QByteArray name = lock_of(path_);
     Descriptor lock(::open(name.constData(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600));

@@ -1,4 +1,4 @@
-// Unsaved changes of a file, kept so that they outlive the window. It is kept in the user's own
+// Unsaved changes of a file, kept so that they outlive the window. They are kept in the user's own
 // folder, $XDG_STATE_HOME/dihaptic/drafts or ~/.local/state/dihaptic/drafts, because the file's
 // folder may belong to another person. Only one window at a time holds a file's draft, so that a
 // second window notices the first.
@@ -25,7 +25,7 @@ class Draft {
     Draft(const Draft&) = delete;
     Draft& operator=(const Draft&) = delete;
 
-    /// Whether this window holds the draft, perhaps from now on; false if another window does.
+    /// Takes the draft, unless another window holds it. Returns whether this window holds it now.
     /// Throws Error when no draft can be kept.
     bool take();
     /// The unsaved text of a window that ended. Call only while holding the draft.

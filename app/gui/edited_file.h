@@ -20,7 +20,7 @@ class EditedFile {
     const QString& name() const { return name_; }
     /// Path of the edited file: the target, if the name is a link.
     const QString& path() const { return path_; }
-    /// Its content when it was last read or written.
+    /// The file's content when it was last read or written.
     QByteArray content() const { return content_.value_or(QByteArray()); }
     bool was_readable() const { return content_.has_value(); }
     bool is_link() const;

@@ -10,7 +10,8 @@
 
 namespace dihaptic::gui {
 
-/// Only on X11; elsewhere it has no effect, and Escape is handled like any other key (Application).
+/// Works only on X11; elsewhere it has no effect, and Escape is handled like any other key
+/// (Application).
 class EscapeListener : public QObject {
     Q_OBJECT
 
@@ -20,8 +21,8 @@ class EscapeListener : public QObject {
     ~EscapeListener() override;
 
   Q_SIGNALS:
-    /// In the listener's thread, at each press of Escape while a window of this program is the
-    /// active one.
+    /// Emitted in the listener's thread, at each press of Escape while a window of this program is
+    /// the active one.
     void heard();
 
   private:

@@ -41,7 +41,7 @@ bool make_film(const Film& film, QOpenGLWidget& view, QWidget* parent) {
     const int width = size.width() & ~1, height = size.height() & ~1;
     view::Movie movie(film.file.toStdString(), width, height, kRate);
     for (int i = 0; i < pictures; ++i) {
-        told.setValue(i);  // and handles clicks
+        told.setValue(i);  // also handles clicks
         if (told.wasCanceled()) return false;
         film.show(film.begin + film.speed * i / kRate);
         movie.add(picture_of(view, width, height));

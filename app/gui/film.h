@@ -11,8 +11,8 @@ namespace dihaptic::gui {
 
 struct Film {
     QString file;
-    double begin = 0, end = 0;         ///< of the session [s]
-    double speed = 1;                  ///< session time over the video's
+    double begin = 0, end = 0;         ///< stretch of the session [s]
+    double speed = 1;                  ///< session time over video time
     std::function<void(double)> show;  ///< shows a moment [s]
 };
 

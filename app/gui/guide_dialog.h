@@ -21,17 +21,18 @@ class GuideDialog : public QDialog {
     /// rejected when the person gave up, or closed it after failed().
     GuideDialog(const QString& title, const QString& leave,
                 std::function<void(const rig::Guide&)> work, QWidget* parent);
-    /// For work that another thread does with guide() and ends with finish(). The dialog must
-    /// outlive that work.
+    /// A dialog for work that another thread does with guide() and ends with finish(). The dialog
+    /// must outlive that work.
     GuideDialog(const QString& title, const QString& leave, QWidget* parent);
     /// Cancels, and waits until its own work ends.
     ~GuideDialog() override;
 
     void reject() override;
 
-    /// For the working thread.
+    /// The guide for the working thread.
     rig::Guide guide();
-    /// Call from any thread when the work ends; `why`: reason of a failure. The first call counts.
+    /// Call from any thread when the work ends; `why`: reason of a failure. Only the first call has
+    /// an effect.
     enum class Outcome { done, given_up, failed };
     void finish(Outcome outcome, const QString& why = "");
 

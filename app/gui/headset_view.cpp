@@ -7,7 +7,7 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr int kRefresh = 16;  // between checks of the headset's events [ms]
+constexpr int kRefresh = 16;  // time between checks of the headset's events [ms]
 using headset::Words;
 
 }  // namespace
@@ -76,7 +76,7 @@ void HeadsetView::draw_words() {
 
 void HeadsetView::tend() {
     for (const headset::Showing& showing : headset_.take_showings()) Q_EMIT shown(showing);
-    const bool over = headset_.ended();  // before its last notes are taken
+    const bool over = headset_.ended();  // asked before its last notes are taken
     for (const headset::Note& note : headset_.take_notes())
         Q_EMIT told(QString::fromStdString(note.text), note.problem);
     if (!over) return;

@@ -15,12 +15,12 @@ class HeadsetView : public QObject {
   public:
     explicit HeadsetView(const display::Headset& place);
 
-    /// Whether its space has this pose.
+    /// Whether the headset's space has this pose.
     bool is_at(const display::Headset& place) const;
-    /// Shows a fixed frame of that scene.
+    /// Shows a fixed frame of the scene.
     void set_scene(const scene::Scene& scene, const frame::Frame& frame);
-    /// Shows the newest of these frames of that scene, from a running session. Nothing else may
-    /// read them.
+    /// Shows the newest of `frames`, which come from a running session with this scene. Nothing
+    /// else may read them.
     void follow(const scene::Scene& scene, std::shared_ptr<headset::Headset::Frames> frames);
     /// The frames for a session; until its first one, the given frame is shown.
     static std::shared_ptr<headset::Headset::Frames> frames_from(const frame::Frame& frame);
@@ -32,7 +32,7 @@ class HeadsetView : public QObject {
     /// A message of the headset, or its runtime.
     void told(const QString& what, bool problem);
     void shown(const dihaptic::headset::Showing& showing);
-    /// It has stopped showing; told() has given the reason.
+    /// The headset has stopped showing; told() has given the reason.
     void ended();
 
   private:

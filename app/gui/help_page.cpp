@@ -34,7 +34,7 @@ QString show_help_page(const QString& name) {
     }
     const QString file = QString::fromStdString(page);
     if (QDesktopServices::openUrl(QUrl::fromLocalFile(file))) return "";
-    return QCoreApplication::translate("HelpPage", "No program can show %1: open it by hand.")
+    return QCoreApplication::translate("HelpPage", "No program can show %1: open it yourself.")
         .arg(file);
 }
 

@@ -30,7 +30,7 @@ struct Opened {
 /// What to open.
 struct Wanted {
     session::Request request;
-    /// A session follows, so its devices are opened too; otherwise none are.
+    /// Whether a session follows, so that its devices are opened too; otherwise none are.
     bool to_run = false;
     bool by_person = false;  ///< a simulated person moves the hand
     /// Folder of the session to resume, in place of the request; "": none.
@@ -46,7 +46,7 @@ class Loader : public QObject {
     explicit Loader(QObject* parent = nullptr);
     ~Loader() override;
 
-    /// Drops the result of an earlier call that is not finished.
+    /// Opens what is wanted, and drops the result of an earlier call that is not finished.
     void load(const Wanted& wanted);
     bool loading() const { return thread_.joinable(); }
     /// The devices that were opened for the session that follows; null if none does. To be called
@@ -58,8 +58,8 @@ class Loader : public QObject {
   Q_SIGNALS:
     void opened(const dihaptic::gui::Opened& opened);
     void refused(const QStringList& problems);
-    /// After a second, and again whenever that time has doubled: the work that takes so long, and
-    /// its time limit [s].
+    /// Emitted after a second, and again whenever that time has doubled, with the work that takes
+    /// so long and its time limit [s].
     void waits(const QString& what, int seconds, int most);
 
   private:
@@ -68,7 +68,7 @@ class Loader : public QObject {
 
     std::jthread thread_;
     std::optional<Wanted> next_;
-    std::unique_ptr<devices::DeviceGroup> devices_;  // the thread's, while there is one
+    std::unique_ptr<devices::DeviceGroup> devices_;  // used by the thread while it runs
 };
 
 }  // namespace dihaptic::gui

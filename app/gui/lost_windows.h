@@ -17,7 +17,7 @@ class LostWindows : public QObject, public QAbstractNativeEventFilter {
     bool nativeEventFilter(const QByteArray& kind, void* message, qintptr* result) override;
 
   Q_SIGNALS:
-    /// Queued behind the events that came before.
+    /// Emitted for a destroyed window, after the earlier events have been handled.
     void lost(QWidget* window);
 };
 

@@ -12,7 +12,7 @@ const Vec3 kFarthest(0.3, 0.25, 0.4);
 constexpr double kBeyond = 0.5;    // how far the pointer may go beyond that box [m]
 constexpr double kWidest = 0.16;   // largest aperture [m]
 constexpr double kStrongest = 16;  // grip of a strong hand [N]
-constexpr double kQuickly = 3;     // speed of letting go, over that of opening
+constexpr double kQuickly = 3;     // ratio of the speed of letting go to that of opening
 constexpr double kHeld = 0.5;      // grip force of a holding hand [N]
 
 }  // namespace
@@ -64,7 +64,7 @@ void MouseHand::squeeze(Squeeze keys, double h) {
 }
 
 void MouseHand::close(double way) {
-    if (way > 0 && grip_ > most_grip_) return;  // so letting go takes effect at once
+    if (way > 0 && grip_ > most_grip_) return;  // so that letting go takes effect at once
     const bool held = grip_ > kHeld;
     if (way < 0 && held) way *= kQuickly;
     goal_.aperture =

@@ -37,7 +37,7 @@ class MouseHand {
     void turn(const QPointF& pixels);
     /// Returns to its start, with the present aperture.
     void go_back();
-    /// Present grip force [N]; NaN with one finger.
+    /// Sets the present grip force [N]; NaN with one finger.
     void set_grip(double grip);
     /// `notches`: positive closes the hand.
     void wheel(double notches);
@@ -51,7 +51,8 @@ class MouseHand {
 
     hand::Posture start_;
     hand::Posture goal_;
-    /// The hand's position if the desk had no end: the hand returns when the pointer does.
+    /// Where the hand would be if the desk had no edges. The hand itself stops at an edge, and
+    /// leaves it as soon as this position comes back.
     Vec3 pointer_;
     double most_grip_;
     double grip_ = 0;

@@ -8,7 +8,7 @@ class QWidget;
 
 namespace dihaptic::gui {
 
-/// `before` is the present note. nullopt if it stays unchanged.
+/// `before`: the present note. Returns nullopt if it stays unchanged.
 std::optional<QString> ask_for_note(const QString& session, const QString& before, QWidget* parent);
 
 }  // namespace dihaptic::gui

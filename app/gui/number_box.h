@@ -1,6 +1,6 @@
 // A field for a number that looks and is typed the same in every language, with a decimal point, as
-// in files. A typed comma becomes a point; Qt's own field would take it for a separator of
-// thousands, and read 1,5 as 15.
+// in files. A typed comma becomes a point; Qt's own field would take it for a thousands separator,
+// and read 1,5 as 15.
 #pragma once
 
 #include <QDoubleSpinBox>

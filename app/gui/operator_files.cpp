@@ -72,7 +72,7 @@ session::Request OperatorWindow::request() const {
     request.mouse = session_->hand() == SessionPanel::Hand::mouse;
     request.simulate = session_->hand() == SessionPanel::Hand::person;
     request.participant = session_->participant().toStdString();
-    // for showing a file that requires a participant; a session has its own
+    // only to show a file that requires a participant; a session has its own participant
     if (request.participant.empty()) request.participant = "S01";
     request.set.emplace_back("proxy.changeable=yes");
     return request;
@@ -136,7 +136,7 @@ void OperatorWindow::pick(size_t body) {
 
 void OperatorWindow::move_body(const std::string& name, const BodyWay& way, bool shown) {
     if (!composer_->move(name, way)) {
-        scene_->show_frame(control_.first_frame());  // where it was
+        scene_->show_frame(control_.first_frame());  // back where it was
     } else if (!shown) {
         scene_->move_picked(way);
     }

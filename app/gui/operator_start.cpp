@@ -28,7 +28,7 @@ QString finger_help() {
         "H: the finger stays, or moves on.   F4: it goes back to its start.   Escape: force off.");
 }
 
-/// A simulated person, unless the operator gives it another name.
+/// Identifier of a simulated person, unless the operator gives another.
 const std::string kSimulated = "sim-001";
 
 QString question_of(const session::Unfinished& session, const std::string& participant) {

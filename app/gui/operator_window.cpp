@@ -97,8 +97,8 @@ void OperatorWindow::make_docks() {
     auto* mirror = new ParticipantMirror;
     connect_panels(plots_panel, trials_panel, device_panel, tuning_panel);
     connect_mirror(mirror);
-    // `name`: for saveState(), in any language; `entry`: of the menu. The panel's title is the same
-    // without its mnemonic.
+    // `name`: for saveState(), in any language; `entry`: its entry in the menu. The panel's title
+    // is the same without its mnemonic.
     const auto add = [&](const char* name, const QString& entry, QWidget* widget,
                          Qt::DockWidgetArea area) {
         auto* dock = new QDockWidget(QString(entry).remove('&'));
@@ -132,7 +132,7 @@ void OperatorWindow::make_docks() {
     compose_dock_ = add("File", tr("&File"), composer_, Qt::LeftDockWidgetArea);
     compose_dock_->hide();
     resizeDocks({devices, log}, {148, 148}, Qt::Vertical);
-    resizeDocks({tuning_dock, plots}, {236, 240}, Qt::Vertical);  // shows all of the first
+    resizeDocks({tuning_dock, plots}, {236, 240}, Qt::Vertical);  // shows all of the first dock
     resizeDocks({plots}, {380}, Qt::Horizontal);
     resizeDocks({compose_dock_}, {480}, Qt::Horizontal);
 }
@@ -163,7 +163,7 @@ void OperatorWindow::connect_mirror(ParticipantMirror* mirror) {
             participants_.first(),
             participants_.headset() != nullptr
                 ? tr("The pictures in a headset are not shown here.")
-                : tr("The participant has no window of its own: View > Participant's window."));
+                : tr("The participant has no window of their own: View > Participant's window."));
     };
     follow();
     connect(&participants_, &ParticipantWindows::changed, mirror, follow);
@@ -181,7 +181,7 @@ void OperatorWindow::connect_participants() {
     });
     connect(&participants_, &ParticipantWindows::shown_to_head, this,
             [this](const headset::Showing& showing) { control_.runner().note_shown(showing); });
-    // pictures in the first window count as seen
+    // pictures in the first window are taken as seen by the participant
     connect(&participants_, &ParticipantWindows::presented, this,
             [this](qint64 tick) { control_.runner().note_shown(tick); });
 }
@@ -189,7 +189,7 @@ void OperatorWindow::connect_participants() {
 void OperatorWindow::connect_session() {
     connect(session_, &SessionPanel::open_requested, this, &OperatorWindow::choose_file);
     connect(session_, &SessionPanel::choice_changed, this, [this] {
-        control_.drop_start();  // the session about to start had another choice
+        control_.drop_start();  // the session about to start was prepared with another choice
         reload();
     });
     connect(session_, &SessionPanel::start_requested, this, &OperatorWindow::start);

@@ -38,11 +38,11 @@ class OperatorWindow : public QMainWindow {
     /// Shows the start page.
     void show_start_page();
     /// Opens a scene or an experiment. Problems are reported in the log, and the last good file
-    /// stays.
+    /// stays open.
     void open(const QString& file);
     /// Pauses the running session: force is off from the servo's next tick until it continues.
     void force_off();
-    /// `signal` asked the program to end, and has ended force already: the window closes once the
+    /// `signal` asked the program to end, and force is already off: the window closes once the
     /// session's files are written.
     void end(int signal);
     /// Another program destroyed this window: the session ends, as when the window is closed, and
@@ -80,7 +80,7 @@ class OperatorWindow : public QMainWindow {
     /// Shows the position of a clicked body in the text.
     void pick(size_t body);
     /// Moves a body in the text, and shows it at its new position until the text has been read
-    /// again; `shown`: it is already shown there.
+    /// again; `shown`: it is already shown at its new position.
     void move_body(const std::string& name, const BodyWay& way, bool shown);
     /// Moves the body whose lines contain the text cursor.
     void step_body(const Vec3& step);
@@ -144,7 +144,7 @@ class OperatorWindow : public QMainWindow {
     QMenu* camera_menu_ = nullptr;
     QElapsedTimer since_refresh_;
     recording::Participant participant_;  ///< the person who did the last trials
-    std::optional<MouseHand> mouse_;      ///< of the running session
+    std::optional<MouseHand> mouse_;      ///< hand of the running session
     bool closing_ = false;
     bool ended_ = false;  ///< a signal asked the program to end
     bool lost_ = false;   ///< another program destroyed the window

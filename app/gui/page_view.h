@@ -1,5 +1,5 @@
 // A page that a task shows in place of the scene: text, in Markdown, and a picture above it, which
-// moves if its file does.
+// moves if its file is animated.
 #pragma once
 
 #include <QLabel>

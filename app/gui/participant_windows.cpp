@@ -7,7 +7,7 @@ namespace dihaptic::gui {
 
 namespace {
 
-constexpr std::chrono::milliseconds kFollow{4};  // screens are no faster
+constexpr std::chrono::milliseconds kFollow{4};  // no screen is faster
 
 /// The number of windows for a rig.
 size_t windows_of(const rig::Rig& rig) {
@@ -80,7 +80,7 @@ void ParticipantWindows::add(const display::Headset& headset) {
     headset_ = std::make_unique<HeadsetView>(headset);
     connect(headset_.get(), &HeadsetView::told, this, &ParticipantWindows::told);
     connect(headset_.get(), &HeadsetView::shown, this, &ParticipantWindows::shown_to_head);
-    // queued: the receiver deletes the headset
+    // queued, because the receiver deletes the headset
     connect(headset_.get(), &HeadsetView::ended, this, &ParticipantWindows::headset_ended,
             Qt::QueuedConnection);
 }
@@ -91,7 +91,7 @@ void ParticipantWindows::add(const std::optional<display::Display>& display) {
     connect(&window, &ParticipantWindow::key_pressed, this, &ParticipantWindows::key_pressed);
     connect(&window.scene().questions(), &QuestionsView::clicked, this,
             &ParticipantWindows::clicked);
-    // queued: the receiver deletes the window
+    // queued, because the receiver deletes the window
     connect(&window, &ParticipantWindow::closed, this, &ParticipantWindows::closed,
             Qt::QueuedConnection);
     const QString monitor = display ? QString::fromStdString(display->monitor) : "";

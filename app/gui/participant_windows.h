@@ -1,5 +1,5 @@
-// The windows for the participant: one for each display of the rig and its headset, or one window
-// without a display.
+// The windows for the participant: one for each display of the rig, besides the view in its
+// headset; a rig with neither gets one window.
 #pragma once
 
 #include <QTimer>

@@ -21,11 +21,11 @@ namespace dihaptic::gui {
 /// The questions that are asked now.
 struct Asked {
     std::span<const task::AskSpec> items;
-    QString title;                ///< of the form
+    QString title;                ///< title of the form
     bool is_form = false;         ///< all items are shown, with a button that confirms them
     size_t now = 0;               ///< the item whose answer is awaited; items.size(): none
-    std::vector<double> answers;  ///< by item, in the unit of its name; NaN: none yet
-    QString typed;                ///< of the awaited answer
+    std::vector<double> answers;  ///< answer to each item, in the unit of its name; NaN: none yet
+    QString typed;                ///< typed part of the awaited answer
 };
 
 class QuestionsView : public QWidget {
@@ -56,7 +56,7 @@ class QuestionsView : public QWidget {
     static QString text_of(const Asked& asked, size_t item);
     void fit();
 
-    const task::AskSpec* first_ = nullptr;  // the questions shown are those that begin here
+    const task::AskSpec* first_ = nullptr;  // the first of the questions shown
     size_t count_ = 0;
     bool is_form_ = false;
     QSize room_;

@@ -34,7 +34,7 @@ class RatingView : public QWidget {
     double share_at(const QPointF& pixels) const;
 
     const task::AskSpec* question_ = nullptr;
-    double share_ = -1;  // position of the pointer; negative: elsewhere
+    double share_ = -1;  // position of the pointer; negative: not on the line
     double answer_ = kUnmeasured;
     bool awaited_ = false;
 };

@@ -17,7 +17,7 @@ namespace dihaptic::gui {
 namespace {
 
 constexpr double kOrbit = 0.006;     // [rad/pixel]
-constexpr double kStill = 3;         // shorter movements of the pointer do not count [px]
+constexpr double kStill = 3;         // shorter movements of the pointer are ignored [px]
 constexpr double kCoarse = 2.0 / 3;  // detail of pictures for slow drawing
 constexpr size_t kPath = 300;        // length of the path [pictures]: five seconds
 
@@ -265,7 +265,7 @@ void SceneWidget::make_view() {
         fine_ = false;
         Q_EMIT draws_in_software(
             tr("there is no graphics card (%1): the scene is drawn with two thirds of the window's "
-               "pixels in each direction. View > Fine pictures shows all, more slowly.")
+               "pixels in each direction. View > Fine pictures draws all pixels, more slowly.")
                 .arg(QString::fromStdString(renderer)));
     }
     if (fine_ == false) view_->set_detail(kCoarse);
@@ -315,7 +315,7 @@ display::Display SceneWidget::seen_display() {
     return out;
 }
 
-/// Glasses open for the eyes in turn even if a picture is late. The next eye follows from the
+/// The glasses open for each eye in turn even if a picture is late. The next eye follows from the
 /// number of refreshes since the last picture.
 void SceneWidget::take_turns() {
     if (!display_ || display_->stereo != display::Stereo::in_turn) return;

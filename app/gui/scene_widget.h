@@ -69,8 +69,8 @@ class SceneWidget : public QOpenGLWidget {
     };
     void set_layers(const Layers& layers);
     void set_patch(const std::optional<view::PatchLook>& patch);
-    /// Whether pictures have all pixels, or two thirds of them in each direction. Initially they
-    /// have all if a graphics card draws.
+    /// Whether pictures are drawn with all pixels, or with two thirds of them in each direction.
+    /// Initially all are drawn if there is a graphics card.
     void set_fine(bool fine);
     const Layers& layers() const { return layers_; }
     /// The frame shown in the last picture.
@@ -98,7 +98,7 @@ class SceneWidget : public QOpenGLWidget {
     void dragged(size_t body, const dihaptic::gui::BodyWay& way);
     /// A key was pressed that moves the picked body by a step [m].
     void stepped(const dihaptic::Vec3& step);
-    /// OpenGL draws in software, and therefore in less detail; a message. Sent once.
+    /// OpenGL draws in software, and therefore in less detail: a message for the user. Sent once.
     void draws_in_software(const QString& what);
     /// OpenGL cannot draw: the reason and the remedy.
     void failed(const QString& why);
@@ -118,7 +118,7 @@ class SceneWidget : public QOpenGLWidget {
   private:
     void release();
     void set_key(const QKeyEvent& event, bool down);
-    /// Moves the camera by a key, as the mouse does; false if the key is not one of these.
+    /// Moves the camera by a key, as the mouse does; false if the key does not move it.
     bool look_by_key(const QKeyEvent& event);
     void set_staying(bool stays);
     void move_hand(const QPointF& pixels, bool in_depth);
@@ -132,7 +132,7 @@ class SceneWidget : public QOpenGLWidget {
     void make_view();
     void draw_scene();
     display::Display seen_display();
-    /// After a picture has appeared on the screen: the next one is for the other eye.
+    /// Call after a picture has appeared on the screen: the next one is for the other eye.
     void take_turns();
     void draw_words();
 
@@ -146,15 +146,15 @@ class SceneWidget : public QOpenGLWidget {
     bool right_eye_ =
         false;  // whether the right eye's picture is next, on a display for both eyes in turn
     QElapsedTimer since_swap_;
-    /// Holds page, question and texts if each eye, or a mirror, must see them unmirrored; null:
-    /// they lie over the scene.
+    /// Holds page, question and texts if they are drawn into the picture, for each eye or for a
+    /// mirror; null: they lie over the scene.
     std::unique_ptr<QWidget> words_;
     std::optional<size_t> picked_;
     std::optional<BodyDrag> drag_;  // drag of the picked body, while the button is down
     Pose X_WB_dragged_;             // pose of that body at the start of the drag
     Layers layers_;
     std::optional<view::PatchLook> patch_;
-    std::optional<bool> fine_;  // unset: depends on the renderer
+    std::optional<bool> fine_;  // if unset, depends on the renderer
     std::vector<view::Workspace> workspaces_;
     servo::WorkspaceTurn turn_;
     std::deque<Vec3> path_;

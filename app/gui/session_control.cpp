@@ -108,8 +108,8 @@ SessionControl::Words SessionControl::words() const {
     return {"", said_, QString::fromStdString(page.spec.picture)};
 }
 
-/// What has been typed so far: the number at the end of the scale in words, which is the line
-/// `scale`.
+/// What has been typed so far: the number that ends the line showing the scale in words. `scale` is
+/// the message of that line.
 QString SessionControl::typed(const frame::TaskFrame& task, const task::TaskPlan& plan, int scale) {
     const std::vector<std::string> texts = frame::shown_texts(task, plan.messages);
     for (size_t i = 0; i < task.lines.size(); ++i) {
@@ -136,7 +136,7 @@ std::optional<Asked> SessionControl::asked() const {
     if (out.is_form)
         out.title =
             QString::fromStdString(state.message.empty() ? state.form->title : state.message);
-    // the lines below the message say which question is asked now
+    // the lines below the message state which question is asked now
     const auto& items = plan.states[phase].questions.items;
     const auto is_shown = [&](const task::TaskPlan::Questions::Item& item) {
         return std::ranges::any_of(frame.task.lines, [&](const frame::LineFrame& line) {
@@ -174,13 +174,13 @@ void SessionControl::read(const session::Request& request, const std::optional<s
 }
 
 void SessionControl::take(const Opened& opened) {
-    auto devices = loader_.take_devices();  // closed again, unless a session starts now
+    auto devices = loader_.take_devices();  // they are closed again, unless a session starts now
     if (runner_.running()) return;
     plan_ = opened.plan;
     frame_ = opened.frame;
     complaint_.clear();
     text_is_wrong_ = false;
-    // opened devices may have reported more
+    // opening the devices may have added warnings
     QStringList warnings;
     for (const Problem& warning : plan_->warnings)
         warnings += QString::fromStdString(warning.text());
@@ -209,7 +209,7 @@ void SessionControl::refuse(const QStringList& problems) {
     if (!edited_) {  // the user sees mistakes at their place while typing
         complaint_ = problems.front();
         for (const QString& problem : problems) log(problem, true);
-        if (plan_) log(tr("The open file stays as it is."));
+        if (plan_) log(tr("The open file stays unchanged."));
     }
     Q_EMIT changed();
     if (changed_) Q_EMIT file_changed();

@@ -28,15 +28,15 @@ class SessionControl : public QObject {
         paused,
         finishing,  ///< the ticks are over, and files are being written
     };
-    /// What a state allows. `prepare`: the checks and questions before a session. `move`: the hand,
-    /// by mouse.
+    /// What a state allows. `prepare`: the checks and questions before a session. `move`: moving
+    /// the hand by mouse.
     enum class Act { open, start, prepare, calibrate, pause, stop, skip, step, move, force_off };
     /// What a session needs besides its plan.
     struct Start {
         recording::Participant participant;
         bool by_person = false;  ///< a simulated person moves the hand
         double pace = 1;         ///< SessionRunner's
-        std::optional<recording::InStudy> in_study = std::nullopt;  ///< of a resumed session
+        std::optional<recording::InStudy> in_study = std::nullopt;  ///< place of a resumed session
     };
 
     /// `out`, `sync` and `stop`: OperatorWindow's.
@@ -68,7 +68,7 @@ class SessionControl : public QObject {
     struct Words {
         QString message;  ///< texts over the scene
         QString page;     ///< text of the page in place of the scene
-        QString picture;  ///< of that page
+        QString picture;  ///< picture of that page
     };
     Words words() const;
     /// The form that is filled in now, or the rating that a click can answer; nullopt: none.
@@ -87,7 +87,7 @@ class SessionControl : public QObject {
     bool want_start();
     /// Keeps a session that is about to start from starting.
     void drop_start() { starts_.reset(); }
-    /// Drops the start, and also one that waits for the file.
+    /// Drops the session about to start, and also a start that waits for the file.
     void forget_start();
     /// Reads the file again, so that the session uses its present content, and starts. `resumes`:
     /// folder of the session to continue, whose frozen files are read instead; "": none. To be
@@ -129,7 +129,7 @@ class SessionControl : public QObject {
     void progressed(const dihaptic::gui::SessionProgress& now);
     /// `share`: written share of the session's files.
     void finishing_progressed(double share);
-    /// No force acts, for this reason.
+    /// No force acts; `why` is the reason.
     void rested(const QString& why);
     void ended();
 

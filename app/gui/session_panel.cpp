@@ -35,8 +35,8 @@ SessionPanel::SessionPanel(SessionControl& control)
     pause_->setCheckable(true);
     start_->setToolTip("F5");
     pause_->setToolTip(tr("F6, or Escape: time stands still, and no force acts"));
-    skip_->setToolTip(tr("F8: this trial is over and counts as skipped; the next one starts"));
-    // of fixed height and as wide as there is room, so that nothing jumps under the pointer
+    skip_->setToolTip(tr("F8: this trial ends and is recorded as skipped; the next one starts"));
+    // of fixed height and as wide as possible, so that nothing jumps under the pointer
     trial_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     trial_->hide();
     stop_->setToolTip(tr("F7: ends the session properly"));
@@ -89,11 +89,11 @@ void SessionPanel::connect_control() {
     connect(&control_, &SessionControl::ended, this, [this] { set_trial(""); });
 }
 
-/// The choices of the mover of simulated hands, and of the speed of their time.
+/// Sets up the choices of what moves simulated hands, and of the speed of their time.
 void SessionPanel::set_up_hand() {
     hand_->addItems({tr("the mouse"), tr("the file's script"), tr("a simulated person")});
     hand_->setToolTip(tr(
-        "The holder of simulated devices. A simulated person does the trials of an experiment, and "
+        "Who holds the simulated devices. A simulated person does the trials of an experiment, and "
         "sees, feels, adapts and answers (dihaptic run --simulate). A person holds real devices."));
     for (const auto& [name, pace] :
          {std::pair(tr("in real time"), 1.0), std::pair(tr("10 times faster"), 10.0),

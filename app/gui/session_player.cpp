@@ -37,7 +37,7 @@ namespace dihaptic::gui {
 namespace {
 
 constexpr int kSliderSteps = 100000;
-constexpr int kPicture = 16;  // between pictures while it plays [ms]
+constexpr int kPicture = 16;  // time between pictures during playback [ms]
 
 /// The rows of a session's table; none if it has no table with that name.
 template <class Row>
@@ -220,7 +220,7 @@ void SessionPlayer::make_moments() {
     std::sort(starts_.begin(), starts_.end(),
               [](const Start& a, const Start& b) { return a.time < b.time; });
     for (const rows::EventRow& event : rows_of<rows::EventRow>(folder_, "events.csv")) {
-        if (event.name != "trial")  // it is already listed
+        if (event.name != "trial")  // trials are already listed
             list_moment(event.time, joined({text(event.name), text(event.detail)}));
     }
     for (const rows::EpisodeRow& episode : rows_of<rows::EpisodeRow>(folder_, "episodes.csv")) {
@@ -361,7 +361,7 @@ void SessionPlayer::go_on() {
 void SessionPlayer::step(int frames) {
     play(false);
     const double tick = log_.head().tick;
-    // from the displayed tick, not from the moment within it
+    // measured from the displayed tick, not from the moment within it
     const double shown = seconds(log_.at(time_).time);
     go_to(shown + (frames + 0.01) * tick);
 }
@@ -447,7 +447,7 @@ void open_sessions(const QStringList& folders) {
         players.push_back(std::make_unique<SessionPlayer>(folder.toStdString()));
     const QRect room = QGuiApplication::primaryScreen()->availableGeometry();
     for (size_t i = 0; i < players.size(); ++i) {
-        SessionPlayer* const player = players[i].release();  // deletes itself when it is closed
+        SessionPlayer* const player = players[i].release();  // it deletes itself when it is closed
         if (folders.size() == 2) {
             player->set_together(true);
             // half a display has no room for the list of moments; View shows it again

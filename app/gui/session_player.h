@@ -30,7 +30,7 @@ class SessionPlayer : public QMainWindow {
     Q_OBJECT
 
   public:
-    /// `folder`: of the session. Throws Error when it cannot be read.
+    /// `folder`: the session's folder. Throws Error when it cannot be read.
     explicit SessionPlayer(const std::string& folder, QWidget* parent = nullptr);
     ~SessionPlayer() override;
 
@@ -38,8 +38,8 @@ class SessionPlayer : public QMainWindow {
     double time() const { return time_; }
     void go_to(double time);
 
-    /// A moment relative to a trial: the trial's number (0: before all trials, or there are none)
-    /// and the time since it began [s].
+    /// A moment relative to a trial: the trial's number (0 before the first trial, or without
+    /// trials) and the time since it began [s].
     struct Moment {
         int trial = 0;
         double since = 0;
@@ -58,11 +58,11 @@ class SessionPlayer : public QMainWindow {
     void make_menus();
     QWidget* make_controls();
     void make_moments();
-    /// Lists an event at a time [s]; an unmeasured one is left out. A limit reached before is only
-    /// counted.
+    /// Lists an event at a time [s], unless the time is unmeasured. If the same limit was reached
+    /// before, it is only counted.
     void list_moment(double seconds, const QString& what);
     void read_curves();
-    /// False, with a message, if a text is not an expression.
+    /// Shows the curves that the user typed; false, with a message, if one is not an expression.
     bool choose_curves();
     void play(bool on);
     void go_on();
@@ -82,7 +82,7 @@ class SessionPlayer : public QMainWindow {
         double time;  // [s]
         int trial;
     };
-    std::vector<Start> starts_;  // of attempts at trials
+    std::vector<Start> starts_;  // starts of attempts at trials
     QAction* together_ = nullptr;
     bool following_ = false;
     std::vector<task::RecordedValue> values_;

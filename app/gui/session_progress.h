@@ -9,8 +9,8 @@
 namespace dihaptic::gui {
 
 struct SessionProgress {
-    QString trial;     ///< number of the trial, out of how many, and its name; empty without trials
-    double share = 0;  ///< of the session that is over
+    QString trial;     ///< its number, out of how many, and its name; empty without trials
+    double share = 0;  ///< share of the session that is over
     QString text;      ///< remaining time, or the time so far if that is unknown
 };
 

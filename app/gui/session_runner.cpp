@@ -47,7 +47,7 @@ void SessionRunner::end_program() {
     std::fprintf(stderr, "The window is lost: force is off, and the session ends.\n");
     while (runner->busy_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::fflush(nullptr);
-    std::_Exit(1);  // not exit(), whose handlers belong to a lost window
+    std::_Exit(1);  // not exit(), whose handlers use a lost window
 }
 
 void SessionRunner::pause_at_once() {

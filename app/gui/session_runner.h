@@ -34,8 +34,8 @@ class SessionRunner : public QObject {
     ~SessionRunner() override;
 
     /// Starts a session on its open devices, as session::run_session() does; one at a time. Sets
-    /// `options.live` itself. `pace`: for a session on the virtual clock, as in set_pace().
-    /// `second`: receives frames too, unless null.
+    /// `options.live`. `pace`: pace of a session on the virtual clock, as in set_pace(). `second`
+    /// also receives the frames, unless it is null.
     void start(session::Plan plan, session::RunOptions options, double pace,
                std::unique_ptr<devices::DeviceGroup> devices = nullptr,
                std::shared_ptr<Latest<frame::Frame>> second = nullptr);
@@ -47,7 +47,7 @@ class SessionRunner : public QObject {
     /// responding. Not before, because drawing a scene for the first time may take longer.
     void watch();
 
-    // the functions below, up to end(), only while running
+    // the functions below, up to end(), may be called only while running
     const session::Plan& plan() const { return session_->plan; }
     /// The frames passed to start().
     std::shared_ptr<Latest<frame::Frame>> second() const { return session_->live.second; }
@@ -62,7 +62,7 @@ class SessionRunner : public QObject {
     std::optional<session::CurveSample> take_sample() { return session_->live.take_sample(); }
     std::optional<session::TrialEnd> take_trial_end() { return session_->live.take_trial_end(); }
     void set_paused(bool paused) { session_->live.paused = paused; }
-    /// The folder of the session's recording, once; "" before it is known.
+    /// The folder of the session's recording, returned only once; "" before it is known.
     QString take_folder() { return QString::fromStdString(session_->live.take_folder()); }
     /// The reason why the session has paused by itself since the last call; "" if it has not.
     QString take_told() { return QString::fromStdString(session_->live.take_told()); }
@@ -73,12 +73,13 @@ class SessionRunner : public QObject {
         session_->knobs = knobs;
         session_->live.knobs.publish(knobs);
     }
-    /// `angle`: to which the workspaces turn [rad].
+    /// `angle`: the angle to which the workspaces turn [rad].
     void turn_workspaces(double angle) {
         session_->knobs.workspace_turn = angle;
         session_->live.knobs.publish(session_->knobs);
     }
-    /// For a session on the virtual clock: session time over wall time, 0: as fast as possible.
+    /// Sets the pace of a session on the virtual clock: session time over wall time; 0: as fast as
+    /// possible.
     void set_pace(double pace) { session_->live.pace = pace; }
     /// Runs this many ticks of a paused session.
     void step(int ticks) { session_->live.steps += ticks; }
@@ -105,18 +106,19 @@ class SessionRunner : public QObject {
     void end() { session_->live.ended = true; }
     /// Whether force was switched off for good, as by a signal; also after the session's end.
     bool stopped() const { return stop_; }
-    /// Whether the session must end; only while running, from the session's thread too.
+    /// Whether the session must end. May be called only while running, also from the session's
+    /// thread.
     bool ending() const { return session_->live.ended || stop_; }
     /// For a program that must end without unwinding because its display is gone. If a session is
     /// running, it switches force off at once, waits for the session's files, and ends the program;
-    /// otherwise it does nothing. From any thread but the session's.
+    /// otherwise it does nothing. May be called from any thread but the session's.
     static void end_program();
     /// Pauses the running session, if any, even if the window is busy or hangs: force is off from
-    /// the servo's next tick on. From any thread.
+    /// the servo's next tick on. May be called from any thread.
     static void pause_at_once();
 
   Q_SIGNALS:
-    /// After pause_at_once() has paused the session, in the window's thread.
+    /// Emitted in the window's thread after pause_at_once() has paused the session.
     void paused_at_once();
     /// `share`: written share of the session's files. Both signals arrive in the window's thread.
     void finishing_progressed(double share);
@@ -131,7 +133,7 @@ class SessionRunner : public QObject {
         session::Live live;
         const frame::Frame* read = &live.frame.read();
         session::Clock clock = session::Clock::real;
-        frame::Knobs knobs;  ///< to be reached
+        frame::Knobs knobs;  ///< values to be reached
         ValueRing<char> keys{task::kMostKeys};
         std::atomic<bool> finishing{false};
     };
@@ -139,11 +141,10 @@ class SessionRunner : public QObject {
 
     std::atomic<bool>& stop_;
     std::unique_ptr<Session> session_;
-    std::mutex
-        coming_and_going_;  ///< guards session_, which other threads may use while holding it
+    std::mutex coming_and_going_;  ///< guards session_: other threads hold it while they use that
     std::optional<app::NoSuspension> no_suspension_;
     std::atomic<bool> busy_{false};  ///< thread_ runs a session, or makes its files
-    QTimer alive_;                   ///< beats as long as the window answers
+    QTimer alive_;                   ///< signals regularly that the window answers
     QTimer first_beat_;
     std::thread thread_;
 };

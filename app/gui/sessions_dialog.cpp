@@ -51,7 +51,7 @@ QString trials_in(const QString& session) {
     });
 }
 
-/// Number of complete lifts, out of how many.
+/// Number of complete lifts, and of all lifts.
 QString lifts_in(const QString& session) {
     return counted_in<rows::LiftRow>(session + "/lifts.csv", [](const rows::LiftFile& lifts) {
         return SessionsDialog::tr("%1 of %2")
@@ -174,7 +174,7 @@ void SessionsDialog::write_note() {
     const QString session = item->data(0, Qt::UserRole).toString();
     const std::string file = (session + "/" + kNote).toStdString();
     try {
-        // before the user writes a note in vain, and before a foreign file is shown as a note
+        // checked before the user writes a note in vain, or a foreign file is shown as a note
         check_replaceable(file);
         // read again, because the note may have changed since the list was made
         const std::string before = is_there(file) ? read_text_file(file) : "";

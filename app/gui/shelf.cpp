@@ -32,8 +32,8 @@ Shelf::~Shelf() {
 
 QString Shelf::picture_of(const QString& file) {
     QCryptographicHash hash(QCryptographicHash::Sha1);
-    // an experiment's picture also depends on its scene, which may change; the program's version is
-    // part of the key, which suffices for a small picture
+    // an experiment's picture also depends on its scene, whose changes go unnoticed here; for a
+    // small picture, it suffices that the key contains the program's version
     hash.addData(bytes_of(file).value_or(QByteArray()));
     hash.addData(QFileInfo(file).absoluteFilePath().toUtf8());
     hash.addData(QCoreApplication::applicationVersion().toUtf8());

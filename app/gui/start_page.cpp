@@ -15,7 +15,7 @@ namespace dihaptic::gui {
 namespace {
 
 constexpr QSize kTileSize{224, 140};
-constexpr QSize kItem{240, 200};  // with its title and length below
+constexpr QSize kItem{240, 200};  // picture with title and length below
 constexpr int kFile = Qt::UserRole;
 
 /// Files for a start: a scene to play with, then a few with trials.

@@ -11,8 +11,8 @@ class StopRequest : public QObject {
     Q_OBJECT
 
   public:
-    /// From now on signals that end a program come here (common/stop_signals.h). A program has only
-    /// one StopRequest.
+    /// From now on, signals that would end the program arrive here (common/stop_signals.h). A
+    /// program has only one StopRequest.
     StopRequest();
 
     /// Set by a signal, or by other code that ends the program.

@@ -48,7 +48,7 @@ class TimeChart : public QWidget {
     void draw_row(QPainter& painter, size_t row, const QRectF& in) const;
     void draw_times(const ChartPainter& chart) const;
 
-    double first_ = 0, last_ = 1;  // of the session [s]
+    double first_ = 0, last_ = 1;  // start and end of the session [s]
     double begin_ = 0, end_ = 1;   // displayed stretch
     double cursor_ = 0;
     double share_ = 1;

@@ -13,7 +13,7 @@ class TrialChart : public QWidget {
     explicit TrialChart(QWidget* parent = nullptr);
 
     struct Point {
-        double value = 0;  ///< NaN: the trial has none
+        double value = 0;  ///< NaN: the trial has no value
         int outcome = 0;
         bool begins_block = false;
     };

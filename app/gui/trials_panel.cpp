@@ -20,7 +20,7 @@ struct Number {
 
 constexpr int kSeconds = 5, kGrip = 6, kForce = 7, kOwn = 8;  // columns of numbers
 
-/// A task's own numbers, in the order of the frames.
+/// A task's own numbers, in the order in which a frame stores them.
 std::vector<Number> numbers_of(const task::TaskPlan& plan) {
     std::vector<Number> out;
     const auto add = [&](const std::string& name) {
@@ -160,7 +160,7 @@ void TrialsPanel::set_figures(const Table& trials) {
         return static_cast<size_t>(found - trials.columns.begin());
     };
     const size_t trial = place("trial_num"), attempt = place("attempt");
-    const size_t shown = place("peak_force_N");  // like the columns before it
+    const size_t shown = place("peak_force_N");  // already shown, like the columns before it
     const size_t first = shown + 1;
     if (!plan_ || trials.rows.empty() || std::max({trial, attempt, shown}) == trials.columns.size())
         return;

@@ -19,7 +19,7 @@ class TrialsPanel : public QWidget {
   public:
     explicit TrialsPanel(QWidget* parent = nullptr);
 
-    /// A session with these trials starts; null if it has none.
+    /// A session with these trials starts; null: a session without trials.
     void set_plan(std::shared_ptr<const task::TaskPlan> plan);
     void add(const session::TrialEnd& end);
     /// Fills in the measures of these attempts. `trials`: as in trials.csv.
@@ -37,14 +37,14 @@ class TrialsPanel : public QWidget {
     int own_columns() const;
 
     std::shared_ptr<const task::TaskPlan> plan_;
-    std::vector<double> units_;  // of the columns of the task's own, in SI
+    std::vector<double> units_;  // units of the task's own columns, in SI
     TrialChart* chart_;
     QTreeWidget* table_;
     int charted_ = 0;                               // column
-    bool chosen_ = false;                           // by a click
-    std::vector<session::TrialEnd> ends_;           // a row each
+    bool chosen_ = false;                           // whether by a click
+    std::vector<session::TrialEnd> ends_;           // one for each row
     QStringList figures_;                           // names of the columns after the task's own
-    std::map<std::pair<int, int>, Figures> found_;  // by trial and attempt
+    std::map<std::pair<int, int>, Figures> found_;  // measures by trial and attempt
 };
 
 }  // namespace dihaptic::gui

@@ -29,7 +29,7 @@ void TuningPanel::add(QFormLayout* form, E frame::Knobs::*knob, const frame::Kno
 void TuningPanel::add(QFormLayout* form, double frame::Knobs::*knob, const frame::Knob& is) {
     auto* box = new NumberBox;
     const bool may_be_unset = is.unset != nullptr;
-    // below the least value, and shown as text
+    // an unset knob has the value one step below the least, and is shown as text
     box->setRange(may_be_unset ? is.least - is.step : is.least, is.most);
     if (may_be_unset) box->setSpecialValueText(is.unset);
     box->setSingleStep(is.step);

@@ -33,8 +33,8 @@ class TuningPanel : public QWidget {
     void turn(T frame::Knobs::*knob, const frame::Knob& is, T value);
 
     frame::Knobs knobs_;
-    std::vector<std::function<void()>> show_;  // by knob: shows its value in knobs_
-    bool setting_ = false;  // values are being set by the program, not by its user
+    std::vector<std::function<void()>> show_;  // for each knob, shows its value in knobs_
+    bool setting_ = false;  // whether the program, not the user, is setting values
 };
 
 }  // namespace dihaptic::gui

@@ -18,7 +18,7 @@ bool is_letter(QChar c) {
 struct Around {
     QChar bracket;   // innermost open bracket; null: none
     QChar quote;     // quote around the position; null: none
-    QString before;  // of the same item in brackets or, outside of them, of the same line
+    QString before;  // preceding text of the item in brackets or, outside of brackets, of the line
     QString close;   // what closes quotes and brackets
 
     QString dashes() const {
@@ -32,7 +32,7 @@ struct Around {
         return bracket == '{' ? !before.contains(key)
                               : bracket.isNull() && dashes().size() == before.size();
     }
-    /// Whether it may be an item of a list with dashes.
+    /// Whether the word may be an item of a list with dashes.
     bool takes_item() const { return bracket.isNull() && dashes().contains('-'); }
 };
 

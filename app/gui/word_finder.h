@@ -16,7 +16,7 @@ namespace dihaptic::gui {
 /// A position in a text at which a word is being typed.
 struct WordPlace {
     QString typed;           ///< typed part of the word, up to the cursor
-    bool is_key = false;     ///< otherwise, the word after a key
+    bool is_key = false;     ///< whether it is a key, not the word after a key
     bool has_colon = false;  ///< whether a colon follows the key
     QString asking;          ///< the text with the unknown placeholder word at this position
     /// A second text to try if the readers find nothing, and whether the word is a key in it: it

@@ -8,7 +8,7 @@
 namespace dihaptic::mesh {
 
 using Corner = std::array<double, 3>;
-using Indices = std::array<size_t, 3>;  ///< of a face's corners
+using Indices = std::array<size_t, 3>;  ///< three of a face's corners
 
 inline Corner cross(const Corner& o, const Corner& a, const Corner& b) {
     const Corner u{a[0] - o[0], a[1] - o[1], a[2] - o[2]};

@@ -17,7 +17,7 @@ double inverse(double value, double largest) {
 }
 
 std::unique_ptr<btRigidBody> bullet_body(const contact::ProblemBody& body) {
-    // Bullet has one mass, and a switch per axis
+    // a body in Bullet has one mass, and a factor for each axis
     const Vec3 lightness = body.inverse_mass.diagonal().head<3>();
     const double largest = lightness.maxCoeff();
     assert((body.inverse_mass.topLeftCorner<3, 3>().isDiagonal()));

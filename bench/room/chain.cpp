@@ -18,7 +18,7 @@ namespace dihaptic::bench {
 namespace {
 
 constexpr double kLinkLength = 0.06, kLinkMass = 0.02, kLinkThick = 0.01;  // [m], [kg]
-constexpr double kChainAngle = 45 * kDegree;                               // at the start
+constexpr double kChainAngle = 45 * kDegree;                               // at the start [rad]
 constexpr int kChainSteps = 10000;
 
 Vec3 along_chain(double angle, double length) {

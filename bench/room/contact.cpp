@@ -12,7 +12,7 @@ namespace dihaptic::bench {
 namespace {
 
 constexpr int kRuns = 7;
-constexpr double kEnough = 0.3e6;  // no further run after this time [us]
+constexpr double kEnough = 0.3e6;  // no further run begins after this time [us]
 
 /// Shortest time of several runs, each of which returns its time [us].
 template <class Run>

@@ -17,7 +17,7 @@ struct ContactBench {
         contact::Solver::newton, contact::Solver::staggered_projections,
         contact::Solver::stewart_trinkle, contact::Solver::sequential_impulse};
     contact::PolygonSettings polygon;
-    bool peers = true;  ///< whether to include other libraries' solvers, if in this build
+    bool peers = true;  ///< whether to include other libraries' solvers, if this build has them
 };
 
 /// One problem, solved by one solver from zero impulses.
@@ -46,8 +46,8 @@ struct ContactFigures {
     }
 };
 
-/// The files named, with a folder replaced by the *.hdf5 files in it. A name that is neither one is
-/// kept, so that reading it gives the error.
+/// The files named, with a folder replaced by the *.hdf5 files in it. A name that is neither a file
+/// nor a folder is kept, so that reading it gives the error.
 std::vector<std::string> contact_files(const std::vector<std::string>& names,
                                        Diagnostics& diagnostics);
 

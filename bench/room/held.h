@@ -1,5 +1,5 @@
 // Measures the calmness with which two fingers hold objects with joints, compared with the rigid
-// block of `bench grasp`, and the time that these add to a tick.
+// block of `bench grasp`, and the time that the joints add to a tick.
 #pragma once
 
 #include <array>

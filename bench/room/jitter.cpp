@@ -103,7 +103,7 @@ class HeldBlock {
         recorder.finish();
         dropped_ += recorder.dropped();
     }
-    /// The same with the additional load, except the view; returns the number of sounds heard.
+    /// Holds it with the additional load, except the view; returns the number of sounds heard.
     int64_t hold(servo::Timing& timing, double turn, const Beside& beside,
                  const std::atomic<bool>& stop) {
         if (!beside.sounds()) {
@@ -139,7 +139,7 @@ Spread spread(const auto& times) {
 
 constexpr std::array kSteps{0, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000};
 
-/// A count as a bar with the length of its logarithm, since rare events matter here.
+/// A count as a bar whose length is its logarithm, since rare events matter here.
 std::string bar(int64_t count) {
     const auto length = count > 0 ? static_cast<size_t>(std::log2(count)) + 1 : 0;
     return fmt::format("{:<22s} {:8d}", std::string(length, '#'), count);

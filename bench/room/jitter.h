@@ -128,7 +128,7 @@ struct JitterRuns {
 
     /// Number of runs with no more overruns than for cyclictest.
     int within_bar() const;
-    /// For a member of JitterFigures, or the result of one of its functions.
+    /// For a figure: a member of JitterFigures, or the result of one of its functions.
     OfRuns over(const auto& figure) const {
         std::vector<double> values;
         for (const JitterFigures& f : runs)

@@ -159,8 +159,8 @@ double double_pendulum_error(const Bench& bench, double h) {
     return worst;
 }
 
-/// The cup of coffee, 2.4 and 0.6 kg: a cart that moves to and fro, and a bob of 10 mm. Largest
-/// distance of the bob from the solution of its equation, in 5 s [m].
+/// The cup of coffee: a cart of 2.4 kg that moves to and fro, with a bob of 0.6 kg and 10 mm
+/// radius. Largest distance of the bob from the solution of its equation, in 5 s [m].
 double cart_pendulum_error(const Bench& bench) {
     constexpr double kLength = 0.25, kRadius = 0.01, kAmplitude = 0.05, kHertz = 0.9;
     constexpr double kAbout = kLength * kLength + 0.4 * kRadius * kRadius;  // by mass
@@ -181,7 +181,7 @@ double cart_pendulum_error(const Bench& bench) {
             -kLength * (kGravity * std::sin(s[0]) + cart_acceleration * std::cos(s[0])) / kAbout,
             1};
     };
-    State s = State::Zero();  // cart and bob are at rest, half a step before too
+    State s = State::Zero();  // cart and bob are at rest, also half a step before
     double worst = 0;
     for (int i = 1; i <= 5000; ++i) {
         for (int k = 0; k < 10; ++k) s = runge_kutta(s, kStep / 10, rate);
@@ -357,8 +357,8 @@ void measure_bounces(const Bench& bench, MechanicsFigures& out) {
     }
 }
 
-/// Two fingers squeeze a soft block, each by 3 mm: relative error of the felt force, springs in
-/// series.
+/// Two fingers squeeze a soft block, each by 3 mm: relative error of the felt force, compared
+/// with springs in series.
 double soft_error(const Bench& bench, double stiffness) {
     constexpr double kCoupling = 1000, kHalf = 0.02, kPad = 0.0025, kPress = 0.003;
     scene::Scene scene;
@@ -404,8 +404,8 @@ double soft_error(const Bench& bench, double stiffness) {
 }
 
 struct Energy {
-    double change = 0;  ///< of the mean from the first to the last 10 s, relative
-    double above = 0;   ///< largest excess over the start, relative
+    double change = 0;  ///< relative change of the mean from the first to the last 10 s
+    double above = 0;   ///< largest excess over the start, as a fraction
 };
 
 /// A chain of ten links, released stretched out at an angle from the vertical, for 60 s. Its energy

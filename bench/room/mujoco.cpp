@@ -32,8 +32,8 @@ struct Delete {
 template <class T>
 using Owned = std::unique_ptr<T, Delete>;
 
-/// Boxes are shrunk by this on each side: if boxes touch exactly, this version reports
-/// contacts centimetres deep, and throws cards and stacks apart.
+/// Boxes are shrunk by this on each side: if boxes touch exactly, this version of MuJoCo
+/// reports contacts centimetres deep, and throws cards and stacks apart.
 constexpr double kDrawnIn = 5e-6;  // [m]
 
 /// Attributes that differ from MuJoCo's defaults.
@@ -156,7 +156,7 @@ void run(const Choice& choice, const Trial& trial, int steps, const Watch& watch
     };
     const Owned<mjModel> model = load(mjcf(trial.scene, choice));
     const Owned<mjData> data(mj_makeData(model.get()));
-    std::vector<int> index;  // of MuJoCo's bodies, by the scene's order
+    std::vector<int> index;  // indices of MuJoCo's bodies, in the scene's order
     for (size_t b = 0; b < trial.scene.bodies.size(); ++b)
         index.push_back(mj_name2id(model.get(), mjOBJ_BODY, number_text(b).c_str()));
     std::vector<Pose> X_WB(trial.scene.bodies.size());

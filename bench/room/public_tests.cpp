@@ -13,7 +13,7 @@ namespace {
 constexpr double kDropped = 0.02;  // slip of a body that its pads have lost [m]
 constexpr double kSinks = 1e-3;    // sinking in 5 s of a body that is not held [m]
 constexpr double kTests = 6;       // number of tests, for the progress
-/// Friction over the least that can hold.
+/// Coefficients of friction, relative to the smallest that can hold.
 constexpr std::array kFactors{0.90, 0.98, 0.999, 1.0, 1.001, 1.02, 1.10};
 
 int steps_in(double time) {
@@ -76,8 +76,8 @@ std::optional<double> capsule_creep(const Simulator& simulator, double grip) {
 }
 
 /// Whether a block of 100 g between pads of 5 N each stays for 5 s after its weight begins to act,
-/// 0.2 s after the grip. `factor`: friction over the critical one, with which the weight is the
-/// most that both pads can bear.
+/// 0.2 s after the grip. `factor`: coefficient of friction relative to the critical one, at
+/// which both pads can just bear the weight.
 bool holds(const Simulator& simulator, double factor) {
     const double mass = 0.1, grip = 5;
     const double friction = factor * mass * model::kGravity / (2 * grip);

@@ -15,7 +15,7 @@ struct Link {
     double mass = 0;              ///< [kg]
     Vec3 inertia = Vec3::Zero();  ///< about its centre (its origin) along its axes [kg*m^2]
     Pose X_PJ;                    ///< of the hinge, its axis along z, in the parent at the start
-    Pose X_BJ;                    ///< and in the body
+    Pose X_BJ;                    ///< of the hinge, in the body
 };
 
 /// The kind of steps: chosen by the integrator for its own accuracy, or Euler's

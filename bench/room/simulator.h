@@ -14,7 +14,7 @@ namespace dihaptic::bench {
 
 constexpr double kStep = 1e-3;  // [s]
 
-/// A scene, and forces in it, each constant from one of its steps on.
+/// A scene, and forces in it; each acts from a given step on, and is constant.
 struct Trial {
     struct Push {
         size_t body = 0;

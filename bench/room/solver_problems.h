@@ -28,14 +28,15 @@ struct ProblemGroup {
 constexpr double kContactsWithin = 0.2;
 
 /// A block on a table; a block between pads, in the air and under another block; a stack of ten;
-/// walls and piles of about 8 to 200 contacts. At most `most` problems of each, evenly over time.
+/// walls and piles of about 8 to 200 contacts. At most `most` of each, spread evenly over time.
 std::vector<ProblemGroup> record_problems(size_t most, const measure::Progress& progress);
 
 // Scenes of the two growing families, which tests also use.
 
 /// A wall in which bricks of each course lie across the joints of the one below.
 scene::Scene brick_wall_scene(int bricks, int courses);
-/// Boxes of many sizes, loosely above a bowl of four slopes: dropped, they form a single heap.
+/// Boxes of many sizes, loosely arranged above a bowl with four sloping sides; when dropped, they
+/// form a single heap.
 scene::Scene pile_scene(int boxes);
 
 }  // namespace dihaptic::bench

@@ -45,9 +45,9 @@ std::vector<size_t> spread_over(size_t count) {
 }
 
 /// Finds the number of problems, spread evenly over the scene's time, that half the budget [s]
-/// allows; at least one. Then each is solved once more, now in their order, so that it finds the
-/// caches in the state left by the previous tick's problem, as in a session. Only that time counts,
-/// unconditionally: the shortest of several times would falsify a p99.
+/// allows; at least one. Then these are solved once more, now in the order of the ticks, so that
+/// each finds the caches as the previous problem left them, as in a session. Only the time of this
+/// second solve is used: the shortest of several times would falsify a p99.
 template <class Solve>
 Times times(size_t count, double budget, const Solve& solve) {
     Times out;

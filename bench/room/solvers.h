@@ -15,7 +15,7 @@ struct SolversBench {
     std::vector<contact::Solver> solvers{
         contact::Solver::newton, contact::Solver::staggered_projections,
         contact::Solver::stewart_trinkle, contact::Solver::sequential_impulse};
-    size_t most_problems = 400;  ///< most problems of each scene
+    size_t most_problems = 400;  ///< maximum number of problems of each scene
     double budget = 0.7;         ///< time for one solver on one scene's problems [s]
 };
 

@@ -7,7 +7,7 @@
     session["grip_force"], session["block.position"], session.t       # numpy arrays
     session.plot("grip_force", "load_force", align="lift_off")
 
-docs/python.md shows the possibilities, and help(dh) lists them. Reading works on any computer (dihaptic-read).
+docs/python.md shows what is possible, and help(dh) lists them. Reading works on any computer (dihaptic-read).
 Functions that need the program, or its module `_native`, raise an ImportError there that gives the remedy.
 """
 
@@ -46,6 +46,7 @@ try:
     from .lifts import find_lift
     from .live import Live, Moment, observe
     from .person import Person, Seen
+    from .power_analysis import power
     from .program import check, recover, replay, report, resume, run, shipped
     from .rehearsing import rehearse
     from .world import Body, Finger, World, step_all
@@ -60,8 +61,8 @@ __all__ = [
     "Attempt", "BetweenTrials", "Body", "Error", "Experiment", "Finger", "LearningCurveFit", "Live", "Moment", "Next", "NotThere",
     "Part", "Person", "Problem", "PsychometricFit", "Quantity", "Rehearsal", "Rig", "Scene", "Seen", "Session",
     "SingleRateFit", "Study", "TwoRateFit", "World", "check", "env", "find_lift", "fit_learning_curve", "fit_psychometric",
-    "fit_single_rate", "fit_two_rate", "load", "observe", "plot", "quantities", "quantity", "read_table", "recover", "rehearse",
-    "replay", "report", "resume", "run", "shipped", "step_all",
+    "fit_single_rate", "fit_two_rate", "load", "observe", "plot", "power", "quantities", "quantity", "read_table", "recover",
+    "rehearse", "replay", "report", "resume", "run", "shipped", "step_all",
 ]  # fmt: skip
 
 if _missing is not None and not TYPE_CHECKING:

@@ -46,7 +46,7 @@ class Head:
 
     tick: float  #: [s]
     items: dict[str, list[str]]  #: for each list whose items have names: these names, in order
-    identity: str = field(default="", compare=False)  #: of the session, which session.yaml has too; empty: not known
+    identity: str = field(default="", compare=False)  #: identity of the session, as in session.yaml; empty: not known
 
 
 def why_unreadable(file: Path, most: float = math.inf) -> str:
@@ -81,7 +81,7 @@ def read_yaml(text: str, file: Path, remedy: str = _BACKUP) -> dict[str, Any]:
     """A mapping, whose values are texts, lists and mappings. Raises Error, with `remedy`."""
     try:
         if _is_nested_deeply(text):
-            raise error(f"has more than {_MOST_NESTED} lists or keys within each other", remedy, file=str(file))
+            raise error(f"has more than {_MOST_NESTED} lists or keys nested within each other", remedy, file=str(file))
         read = yaml.load(text, _LOADER)
     except yaml.YAMLError as why:
         raise error(f"cannot be read: {why}", remedy, file=str(file)) from None
@@ -100,7 +100,7 @@ def read_session_info(folder: Path) -> dict[str, Any]:
     file = folder / "session.yaml"
     text = _text_of_file(file, _BACKUP)
     if not text.endswith(_END):
-        remedy = f"{_BACKUP} From raw.log it is rebuilt by dihaptic recover {shlex.quote(str(folder))}"
+        remedy = f"{_BACKUP} Or rebuild it from raw.log: dihaptic recover {shlex.quote(str(folder))}"
         raise error("is cut off: it does not end with '...'", remedy, file=str(file))
     return read_yaml(text, file)
 

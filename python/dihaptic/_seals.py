@@ -27,7 +27,7 @@ _REPEAT = "Restore it from a backup. If there is none, the session has to be rep
 def faults(folder: Path, info: dict[str, Any], name: str = "") -> list[str]:
     """Known losses from, and changes to, session.yaml and a file of the session, in sentences.
 
-    `info`: the content of session.yaml; `name`: that of the file; empty: none. Raises Error when the seals cannot be
+    `info`: the content of session.yaml; `name`: name of the file; empty: no file. Raises Error when the seals cannot be
     read.
     """
     found = []
@@ -117,7 +117,7 @@ def _fault_of_table(file: Path, sealed: dict[str, Any] | None) -> str:
 
 
 def _fault_of_nwb(file: Path, sealed: dict[str, Any]) -> str:
-    rows = str(sealed.get("rows", "0"))  # these are the ticks
+    rows = str(sealed.get("rows", "0"))  # the number of ticks
     if why := why_unreadable(file, most_of_recording(int(rows) if rows.isdecimal() else 0)):
         return f"cannot be compared with its checksum: {why}"
     if _checksum_of(file) == sealed.get("checksum"):

@@ -1,4 +1,4 @@
-"""Decides between a session's trials, in Python: chooses the next trial, or its properties."""
+"""Controls a session's trials from Python: chooses the next trial, or its properties."""
 
 from __future__ import annotations
 
@@ -51,11 +51,11 @@ class Next:
 
 
 class BetweenTrials:
-    """Decisions between trials, to be passed to run(); derive from it.
+    """Decisions between trials: derive a class from this one, and pass an object of it to run().
 
     decide() is called before the first trial, and after each attempt. It runs outside the session's process, so no tick
-    is late, however slow or wrong it is. In real time no trial starts for up to a second, while its answer is
-    awaited; after a later answer, or an exception, the trials stay as in the file, and the session's notes report it.
+    is late, however slow or wrong it is. In real time the next trial waits up to a second for its
+    answer; after a later answer, or an exception, the trials stay as in the file, and the session's notes report it.
     On the virtual clock the session waits for the answer.
 
     The variables are those of the task: `variables: [{ name: load }]` in the experiment's file, whose formulas use
@@ -128,7 +128,7 @@ class BetweenTrials:
                 answer["next"] = int(chosen.trial_num)
             if chosen.message is not None:
                 answer["message"] = list(self.messages).index(chosen.message)
-        except Exception as why:  # whatever it is, the session continues
+        except Exception as why:  # whatever was raised, the session continues
             self.failures.append(traceback.format_exc())
             return {"number": question["number"], "failed": f"{type(why).__name__}: {_text_of(why)}"}
         return answer

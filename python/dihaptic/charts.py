@@ -41,8 +41,9 @@ def plot(
 
     Without `align`, draws the whole session. With it, draws each lift or trial from `before` [s] before to `after` [s]
     after one of its moments: a column of lifts.csv (`touch`, `load_onset`, `lift_off`, `replacement`, `release`,
-    `first_slip`), or `start_time` or `stop_time` of trials.csv. Each is a thin line, their mean a thick one; `by`, a column such as
-    "condition", makes a mean for each of its values. A vector has a line for each component. Raises NotThere or Error.
+    `first_slip`), or `start_time` or `stop_time` of trials.csv. Each is a thin line, their mean a thick one; `by`, a column
+    such as "condition", makes a mean for each of its values. A vector has a line for each component. Raises NotThere or
+    Error.
 
     >>> import dihaptic as dh
     >>> axes = dh.load(lift_session).plot("block.position.z", align="lift_off", before=0.2, after=0.4)
@@ -99,9 +100,9 @@ def _moments(session: Session, align: str, by: str | None) -> list[tuple[str, fl
     if column not in table or not pd.api.types.is_numeric_dtype(table[column]):
         raise NotThere(
             align,
-            "is not a moment for alignment",
+            "is not a moment on which curves can be aligned",
             [*_LIFT_MOMENTS, "start_time", "stop_time"],
-            f"Valid moments are {', '.join(_LIFT_MOMENTS)}; start_time and stop_time of trials.",
+            f"Valid moments are {', '.join(_LIFT_MOMENTS)} and, for trials, start_time and stop_time.",
         )
     if by is not None and by not in table:
         raise NotThere(by, "is not a column of the trials", list(table.columns), "Session.trials lists the columns.")

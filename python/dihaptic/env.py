@@ -1,4 +1,4 @@
-"""Environments for learners: two fingers lift and turn, four hand over, with the program's contact model.
+"""Environments for learners: two fingers lift or turn an object, or four hand it over, with the program's contact model.
 
 They have the interface of gymnasium (reset, step, spaces). Where gymnasium 1.1 or later is installed, they are its environments,
 created by `gymnasium.make("Dihaptic/Lift-v0")` and `gymnasium.make_vec`.
@@ -115,9 +115,9 @@ class Grasps(_VectorEnv):
     0.3 m/s; it acts for `ticks` ticks. An observation contains, for each finger, the handle's position and velocity,
     the force on it, and the pressing force; the
     object's position, orientation (w, x, y, z), velocity and angular velocity; and the goal, in SI
-    units. The reward is the negative distance from the goal over its initial value, and 1 once the
+    units. The reward is the negative distance from the goal, divided by its initial value, and 1 once the
     goal is reached and held for 0.2 s, which ends the episode; `time` [s] truncates it. In
-    hand_over it counts only while the first hand does not touch the object.
+    hand_over, progress counts only while the first hand does not touch the object.
 
     >>> import dihaptic as dh
     >>> many = dh.env.Grasps("lift", 3, seed=1)

@@ -20,7 +20,7 @@ Interval = tuple[float, float]
 class Fit:
     """The base class of fits of a curve."""
 
-    predicted: npt.NDArray[np.float64] = field(repr=False)  #: in each trial, measured or not
+    predicted: npt.NDArray[np.float64] = field(repr=False)  #: values predicted for each trial, measured or not
     residual_sd: float  #: standard deviation of the residuals, with n - p in the denominator
     sse: float  #: sum of squared residuals
     n: int  #: number of measured trials

@@ -76,8 +76,8 @@ def run(
     """Runs a scene or an experiment, a file or an object, as `dihaptic run` does; opens its session.
 
     `simulate`: a simulated person on simulated devices does the trials, drawn from `population`.
-    `clock`: real or virtual, as fast as possible; default: real only with real devices. `between`: decides between
-    trials. `person`: your own simulated person does them, in this process. With real devices, the command's output and
+    `clock`: real or virtual, as fast as possible; default: real only with real devices. `between`: chooses the
+    next trials. `person`: your own simulated person does them, in this process. With real devices, the command's output and
     questions appear here, and Escape and Ctrl-C switch force off. A session that was interrupted, or whose force was
     switched off, is returned too, with a warning that gives the reason. Ctrl-C ends the session properly, and is raised
     again once its files are made. Raises Error for any fault in the files.
@@ -201,7 +201,7 @@ def call(command: Sequence[str], progress: bool, echo: bool = False) -> _Answer:
         try:
             output = _read(process.stdout, echo)
         except KeyboardInterrupt:
-            # it ends properly, with its files made, and force off
+            # the command then ends properly, with its files made and force off
             process.send_signal(signal.SIGINT)
             process.stdout.read()
             raise

@@ -48,10 +48,10 @@ def rehearse(
 
     People who are already in the folder are not done again. The tables do not depend on `jobs`.
     `person`: makes your own simulated person for a number, from 1; default: people are drawn from `population`.
-    `between`: makes the rules that decide between a person's trials. Random numbers that these draw from `random` and
+    `between`: makes the rules that choose a person's next trials. Random numbers that these draw from `random` and
     `numpy.random` depend on `seed` and the number; your own generator must be made from the number too, since people
     may be done in separate processes. An exception in one of these ends the rehearsal, and so does an invalid decision;
-    people done before stay. `keep_recordings`: also keeps each raw.log and session.nwb, hundreds of MB. Raises Error.
+    people done before are kept. `keep_recordings`: also keeps each raw.log and session.nwb, hundreds of MB. Raises Error.
 
     >>> import dihaptic as dh
     >>> study = dh.rehearse("experiments/first-trials.yaml", 2, out=f"{folder}/study", progress=False)

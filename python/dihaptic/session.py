@@ -92,7 +92,7 @@ class Session:
         'complete'
         """
         info = self._info
-        self._tell_changes("", stacklevel=4)  # cached_property is between
+        self._tell_changes("", stacklevel=4)  # one level is that of cached_property
         return info
 
     @cached_property
@@ -411,7 +411,7 @@ class Session:
         series = self._series(group)
         if "colnames" in series.attrs:
             return pd.DataFrame({column: series[column][...] for column in series.attrs["colnames"]})
-        # from versions before 0.3: a series
+        # versions before 0.3 wrote a series
         rows = series["data"][...].reshape(len(series["data"]), -1)
         table = pd.DataFrame(rows, columns=columns[: rows.shape[1]])
         table.insert(0, "time", self._times(series))

@@ -32,7 +32,7 @@ _CHECK = "dihaptic check names the mistake."
 #: The remedy for a damaged participants.yaml.
 _ROSTER = "Restore the file: log.csv says who was added."
 _REHEARSED = "Restore the file, or rehearse again into another folder."
-#: No log.csv is larger [bytes].
+#: Maximum size of a log.csv [bytes].
 _MOST_LOG = 200_000_000
 #: The remedy for a damaged session.yaml.
 _AWAY = "Restore the file, or move the folder away."
@@ -83,7 +83,7 @@ class Study(Collected):
         concealed = is_yes(allocation, "concealed", self.file, _CHECK, "allocation.")
         seed = part_of(allocation, "seed", str, self.file, _CHECK, "allocation.") or "1"
         codes = {name: _code_of(name, seed) for name in self.groups}
-        #: What is shown for a group, by the name or the code that participants.yaml has.
+        #: The name shown for a group, by the name or the code in participants.yaml.
         self._shown = {name: codes[name] if concealed else name for name in self.groups}
         self._shown.update({codes[name]: shown for name, shown in self._shown.items()})
 
@@ -172,7 +172,7 @@ class Study(Collected):
         if participant not in members:
             if self._rehearsed:
                 what = "is not one of the simulated people"
-                remedy = "Study.participants lists them; sessions of dihaptic run --simulate do not count."
+                remedy = "Study.participants lists them; sessions of dihaptic run --simulate are not included."
             else:
                 what, remedy = "is not a participant of this study", "Study.participants lists them."
             raise NotThere(participant, what, list(members), remedy)
@@ -187,7 +187,7 @@ class Study(Collected):
             return recordings[-1]
         raise self._without(members[participant], study_session, recordings)
 
-    # How it is read
+    # How a study is read
 
     @property
     def _tables_folder(self) -> Path:
@@ -232,7 +232,7 @@ class Study(Collected):
             except FileNotFoundError:
                 return []
             except OSError as why:
-                remedy = "Mend its permissions."
+                remedy = "Correct its permissions."
                 raise error(f"cannot be read: {why.strerror}", remedy, file=str(self.folder / "sessions")) from None
         file = self.folder / "log.csv"
         if not os.path.lexists(file):
@@ -259,7 +259,7 @@ class Study(Collected):
             remedy = "Recordings in it would not count: correct its permissions."
             raise error(f"cannot be read: {why.strerror}", remedy, file=str(folder)) from None
         found = [_recording(path, participant, study_session) for path in paths]
-        # names have local time
+        # by time rather than by name, which has the local time
         for _, _, session in sorted(found, key=lambda each: each[:2]):
             yield session
 
@@ -318,7 +318,7 @@ def _check_members(members: list[dict[str, Any]], file: Path) -> None:
 
 
 def _enough(study: dict[str, Any], file: Path) -> float:
-    """The least share of its trials with which an interrupted session counts. Raises Error."""
+    """The least share of its trials that an interrupted session must have done to be included. Raises Error."""
     resuming = part_of(study, "resuming", dict, file, _CHECK)
     text = part_of(resuming, "complete", str, file, _CHECK, "resuming.") or "1"
     try:

@@ -41,11 +41,11 @@ def read_table(file: str | Path) -> pd.DataFrame:
     try:
         table = parse_table(path, path.name)
         if len(table) and not isinstance(table.index, pd.RangeIndex):
-            # the first row has more cells than the header, and pandas took some for the row's name: without a
-            # header, it refuses this row as it does later ones
+            # the first row has more cells than the header, so pandas took some of them for the row's name; reading
+            # without a header raises the same error as for a later row
             pd.read_csv(path, header=None)
         return table
-    except (OSError, MemoryError, OverflowError, ValueError) as why:  # those of pandas' reader are ValueErrors
+    except (OSError, MemoryError, OverflowError, ValueError) as why:  # errors of pandas' reader are ValueErrors
         if isinstance(why, Error):
             raise
         if longer := re.search(r"Expected \d+ fields in line (\d+)", str(why)):
@@ -85,7 +85,7 @@ def tables_in(folder: Path) -> list[str]:
     except FileNotFoundError:
         return []
     except OSError as why:
-        raise error(f"cannot be read: {why.strerror}", "Mend its permissions.", file=str(folder)) from None
+        raise error(f"cannot be read: {why.strerror}", "Correct its permissions.", file=str(folder)) from None
 
 
 class Collected(ABC):
@@ -98,7 +98,7 @@ class Collected(ABC):
 
     @abstractmethod
     def _collecting(self) -> tuple[Path, str]:
-        """What is collected, and the command for that."""
+        """What kind of thing is collected, and the command that collects it."""
 
     @property
     def tables(self) -> list[str]:

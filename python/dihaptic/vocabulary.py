@@ -37,7 +37,7 @@ class Quantity:
         return _COMPONENTS.get(self.type, "")
 
     def columns(self) -> list[str]:
-        """Names of its columns in a table.
+        """Names of the quantity's columns in a table.
 
         >>> import dihaptic as dh
         >>> dh.quantity("block.position").columns()
@@ -96,7 +96,7 @@ def place_of(name: str, items: Items) -> Place | None:
 
 
 def lists() -> list[str]:
-    """Names of all lists that are one series as a whole: contacts, targets, loads, ..."""
+    """Names of all lists that are stored as one series each: contacts, targets, loads, ..."""
     return [name for name in _BY_LIST if name and name not in NAMED_LISTS]
 
 

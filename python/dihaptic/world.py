@@ -189,7 +189,7 @@ class Body:
     >>> import dihaptic as dh
     >>> world = dh.World("scenes/block-on-table.yaml")
     >>> world.bodies["block"].place((0, 0, 0.5))
-    >>> world.step(100)  # the first puts it there; then it falls
+    >>> world.step(100)  # the first tick puts it there; then it falls
     >>> fallen = 0.5 - world.bodies["block"].position[2]
     >>> bool(abs(fallen - 9.81 / 2 * 0.1**2) < 1e-3)
     True
@@ -206,22 +206,22 @@ class Body:
 
     @property
     def position(self) -> Array:
-        """Position of its origin, in world axes [m]."""
+        """Position of the body's origin, in world axes [m]."""
         return self._read("position")
 
     @property
     def orientation(self) -> Array:
-        """Unit quaternion w, x, y, z that turns its axes into the world's."""
+        """Unit quaternion w, x, y, z that turns the body's axes into the world's."""
         return self._read("orientation")
 
     @property
     def velocity(self) -> Array:
-        """Velocity of its origin, in world axes [m/s]."""
+        """Velocity of the body's origin, in world axes [m/s]."""
         return self._read("velocity")
 
     @property
     def angular_velocity(self) -> Array:
-        """Its angular velocity, in world axes [rad/s]."""
+        """Angular velocity of the body, in world axes [rad/s]."""
         return self._read("angular_velocity")
 
     def place(
@@ -231,14 +231,14 @@ class Body:
         velocity: Sequence[float] | Array = _STILL,
         angular_velocity: Sequence[float] | Array = _STILL,
     ) -> None:
-        """Places it in the next tick: position [m], unit quaternion w, x, y, z, velocities [m/s, rad/s], all in world
+        """Places the body in the next tick: position [m], unit quaternion w, x, y, z, velocities [m/s, rad/s], all in world
         axes."""
         self._world._world.place(self._index, position, orientation, velocity, angular_velocity)
 
     def push(
         self, force: Sequence[float] | Array = _STILL, torque: Sequence[float] | Array = _STILL
     ) -> None:
-        """Pushes at its centre of mass in every tick from now on [N, N*m, world axes], until another push; without
+        """Pushes the body at its centre of mass in every tick from now on [N, N*m, world axes], until another push; without
         arguments, the push ends."""
         self._world._world.push(self._index, force, torque)
 
@@ -250,7 +250,7 @@ class Body:
         turning: float = 1.0,
         friction: float = 1.0,
     ) -> None:
-        """Scales its inertia (by one factor, or one for each of the world's axes), weight, moments of
+        """Scales the body's inertia (by one factor, or one for each of the world's axes), weight, moments of
         inertia and friction from now on; without arguments, they return to the scene's values. A body of
         twice the density has mass=2, weight=2, turning=2."""
         axes = np.broadcast_to(np.asarray(mass, dtype=float), 3)

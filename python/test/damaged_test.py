@@ -111,7 +111,7 @@ class Damaged(unittest.TestCase):
             with self.subTest(text[:12]):
                 folder = self.copy()
                 (folder / "session.yaml").write_text(text + "\n...\n")
-                with self.assertRaisesRegex(dh.Error, "more than 200 lists or keys within each other|cannot be read"):
+                with self.assertRaisesRegex(dh.Error, "more than 200 lists or keys nested within each other|cannot be read"):
                     dh.load(folder).info
 
     def test_a_name_that_leads_out_of_the_folder_is_no_table(self):
@@ -241,7 +241,7 @@ class Damaged(unittest.TestCase):
             ("lifts.csv", lambda text: text.replace("attempt", "try", 1), "lifts.csv: error: has a row without a whole number"),
             ("lifts.csv", lambda text: text.replace("\n1,", "\none,", 1), "lifts.csv: error: has a row without a whole number"),
             ("trials.csv", lambda text: text + text.splitlines()[-1] + "\n", "trials.csv: error: lists an attempt twice"),
-            ("lifts.csv", lambda text: text.replace("lift_off_s", "lift_off", 1), "is not a moment for alignment"),
+            ("lifts.csv", lambda text: text.replace("lift_off_s", "lift_off", 1), "is not a moment on which curves"),
             ("trials.csv", lambda text: "", "cannot be read as a table"),
         ):
             with self.subTest(name, said=said), warnings.catch_warnings():
@@ -316,7 +316,7 @@ class Damaged(unittest.TestCase):
             os.seteuid(0)
             os.chmod(folder, 0o711)
             os.seteuid(65534)
-            with self.assertRaisesRegex(dh.Error, "cannot be read: Permission denied. Mend its permissions"):
+            with self.assertRaisesRegex(dh.Error, "cannot be read: Permission denied. Correct its permissions"):
                 dh.load(folder).tables  # noqa: B018
 
     # session.nwb

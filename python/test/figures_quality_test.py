@@ -172,7 +172,7 @@ class Made(Drawn):
         self.assertIn("The 5 rarest of 11 outcomes have one colour", outcomes.caption)
         self.assertIn("The 6 most frequent of 10 reasons have bars of their own", outcomes.caption)
         self.assertIn("The first 14 of 20 blocks are shown", timing.caption)
-        self.assertIn("The 8 of 12 people with most of these have rows of their own", timing.caption)
+        self.assertIn("The 8 of 12 people with the most of these have rows of their own", timing.caption)
 
     def test_one_column(self):
         data = Few(attempts(), self.sessions(3))

@@ -316,7 +316,7 @@ class Reports(unittest.TestCase):
         captions = (page.parent / "figures" / "captions.txt").read_text()
         for line in captions.splitlines():
             self.assertNotIn("95 %", line)
-        self.assertGreater(captions.count("of one each, so that there is no interval"), 1)
+        self.assertGreater(captions.count("of one value each, so there is no interval"), 1)
         self.assertNotIn("with 95 % intervals", self.read(page.read_text()).text)
 
     def test_a_value_that_was_never_asked_for_is_not_missing(self):

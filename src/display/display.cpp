@@ -12,8 +12,8 @@ namespace dihaptic::display {
 namespace {
 
 constexpr double kSmallest = 0.02, kLargest = 20;  // edges [m]
-constexpr double kNearest = 0.02;                  // from an eye to the screen's plane [m]
-constexpr double kSkewed = 3 * kDegree;            // deviation from a right angle
+constexpr double kNearest = 0.02;                  // least distance of an eye from the plane [m]
+constexpr double kSkewed = 3 * kDegree;            // largest deviation from a right angle
 
 bool has_edges(const Display& display, Diagnostics& diagnostics) {
     for (const auto& [edge, key] :
@@ -77,7 +77,7 @@ void check(const Display& display, Diagnostics& diagnostics) {
         diagnostics.error(
             display.eyes.place, "position",
             before < 0 ? "is behind the screen"
-                       : fmt::format("is {:.3g} mm before the screen's plane", 1e3 * before),
+                       : fmt::format("is {:.3g} mm in front of the screen's plane", 1e3 * before),
             before < 0 ? "Exchange the left and the right corners; the key 'mirrored' describes "
                          "the reversal by a mirror."
                        : "Measure the position of the eyes.");

@@ -50,7 +50,7 @@ struct Eyes {
     Vec3 position = Vec3::Zero();  ///< midpoint between the eyes [m]
     Vec3 along = Vec3::UnitX();    ///< from the left eye to the right eye, of any length
     double distance = 0.063;       ///< between the pupils [m]
-    bool tracked = false;          ///< whether they move with Rig::head
+    bool tracked = false;          ///< whether the eyes move with Rig::head
     Place place{};
 
     Vec3 left() const { return position - distance / 2 * along.normalized(); }
@@ -86,8 +86,8 @@ struct Display {
     Eyes eyes;
     Stereo stereo = Stereo::none;
     std::string registration;  ///< path of its file, relative to the rig file's folder; empty: none
-    std::optional<Registration> registered;  ///< its content, in world coordinates
-    std::string monitor;  ///< its system name; empty: a monitor without the operator's window
+    std::optional<Registration> registered;  ///< the file's content, in world coordinates
+    std::string monitor;  ///< its name in the system; empty: any without the operator's window
     Place place{};
 
     Vec3 right() const { return lower_right - lower_left; }
@@ -117,8 +117,8 @@ struct Display {
         v("stereo", stereo, says("How the pictures for the two eyes share the screen."));
         v("registration", registration,
           Field::text().says(
-              "Registration file, relative to this file: the screen's position as found by a "
-              "finger, which replaces the corners."));
+              "Registration file, relative to this file. It gives the screen's position as "
+              "measured with a finger, and is used in place of the corners."));
         v("monitor", monitor,
           Field::text().says("Name of the monitor, as listed in the window's log; if left out, "
                              "a monitor without the operator's window."));

@@ -18,8 +18,8 @@ constexpr auto enum_names(HeadsetSpace) {
 
 struct Headset {
     HeadsetSpace space = HeadsetSpace::stage;
-    Vec3 position = Vec3::Zero();  ///< of the space's origin [m]
-    Vec3 rotation = Vec3::Zero();  ///< about the world's axes x, then y, then z [rad]
+    Vec3 position = Vec3::Zero();  ///< position of the space's origin [m]
+    Vec3 rotation = Vec3::Zero();  ///< turns about the world's axes x, then y, then z [rad]
     Place place{};
 
     /// X_WS of the space S, which has x right, y up and z backward.

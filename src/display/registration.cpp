@@ -15,8 +15,8 @@ namespace {
 constexpr int kColumns = 5, kRows = 4;
 constexpr double kCrossMargin =
     0.08;  // distance of crosses from the screen's edges, as a fraction of these
-constexpr double kMostRms = 3e-3;      // residual of touches on a single screen [m]
-constexpr double kMostStretch = 0.03;  // of a size measured with a ruler
+constexpr double kMostRms = 3e-3;      // largest rms residual of touches on one screen [m]
+constexpr double kMostStretch = 0.03;  // largest error of a size measured with a ruler
 
 }  // namespace
 

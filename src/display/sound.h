@@ -19,7 +19,7 @@ struct SoundOutput {
     SoundTo to = SoundTo::speakers;
     std::string device;           ///< part of the device's name; empty: the system's default
     double rate = 48000;          ///< [Hz]
-    std::optional<double> delay;  ///< from a tick to the first sample of its sounds [s]
+    std::optional<double> delay;  ///< time from a tick to the first sample of its sounds [s]
     Place place{};
 
     template <class Visitor>

@@ -1,5 +1,5 @@
-// Mixes sounds into a stream of samples. Each begins a fixed time after its request, accurate to
-// the sample.
+// Mixes sounds into a stream of samples. Each sound begins a fixed time after its request, accurate
+// to the sample.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct Order {
     int32_t sound = -1;
     bool begins = true;
     double asked = 0;  ///< session time [s]
-    int64_t at = 0;    ///< that time by the clock of the stream [ns]
+    int64_t at = 0;    ///< `asked`, by the clock of the stream [ns]
 };
 
 /// The onset of a sound, as heard.
@@ -30,16 +30,16 @@ struct Onset {
 
 class Mixer {
   public:
-    /// `delay`: from a request to the sound [s].
+    /// `delay`: time from a request to the sound [s].
     Mixer(std::vector<Wave> waves, double rate, double delay);
 
-    /// From one thread: adds a request; neither waits nor allocates. False when too many are
+    /// Call from one thread: adds a request; neither waits nor allocates. False when too many are
     /// pending.
     bool order(const Order& order) noexcept { return orders_.push(order); }
-    /// From a second thread: the next samples of the stream. `first`: when the first of them is
-    /// heard, by the stream's clock [ns]. Neither waits nor allocates.
+    /// Call from a second thread: renders the next samples of the stream. `first`: when the first
+    /// of them is heard, by the stream's clock [ns]. Neither waits nor allocates.
     void render(std::span<float> out, int64_t first) noexcept;
-    /// From a third thread: the oldest onset not yet taken.
+    /// Call from a third thread: returns the oldest onset not yet taken.
     std::optional<Onset> take_onset() { return onsets_.pop(); }
 
     double rate() const noexcept { return rate_; }
@@ -53,7 +53,7 @@ class Mixer {
         size_t at = 0;       // next sample of the wave
         int64_t age = 0;     // samples since it began
         int64_t ends = -1;   // samples until it begins to fade; -1: not known
-        int64_t faded = 0;   // samples since then
+        int64_t faded = 0;   // samples since it began to fade
     };
     int64_t samples_until(int64_t at, int64_t first) const noexcept;
     void take(const Order& order, int64_t first) noexcept;

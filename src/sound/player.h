@@ -27,7 +27,7 @@ class Player {
         const std::vector<task::SoundSpec>& sounds;
         const display::SoundOutput& output;
         uint64_t seed;
-        bool real;  ///< on the real clock
+        bool real;  ///< whether the session runs on the real clock
     };
     /// Throws Error when the sounds cannot be played.
     Player(const Plan& plan, const recording::SessionFolder& folder);
@@ -35,9 +35,9 @@ class Player {
     Player(const Player&) = delete;
     Player& operator=(const Player&) = delete;
 
-    /// In the tick. On the real clock it neither waits nor allocates.
+    /// Call in the tick. On the real clock it neither waits nor allocates.
     void hear(const frame::Frame& frame) noexcept;
-    /// After the last tick: returns a message about any failure.
+    /// Call after the last tick: returns a message about any failure.
     std::vector<std::string> finish();
 
   private:

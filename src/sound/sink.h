@@ -16,9 +16,9 @@ class Sink {
     virtual ~Sink() = default;
 
     virtual Mixer& mixer() noexcept = 0;
-    /// In a tick at this session time: the time by the stream's clock [ns].
+    /// Call in a tick at this session time: returns the time by the stream's clock [ns].
     virtual int64_t clock(Time session) const noexcept = 0;
-    /// In the tick, after its requests. Neither waits nor allocates.
+    /// Call in the tick, after its requests. Neither waits nor allocates.
     virtual void pass(Time) noexcept {}
     /// Call every few milliseconds, from a thread that is not the servo's.
     virtual void tend() {}

@@ -153,7 +153,7 @@ class Speakers final : public Sink {
     }
     void close() noexcept {
         if (stream_ == nullptr) return;
-        Pa_StopStream(stream_);  // once its buffered samples have been heard
+        Pa_StopStream(stream_);  // returns once the buffered samples have been heard
         Pa_CloseStream(stream_);
         stream_ = nullptr;
     }

@@ -9,7 +9,7 @@
 namespace dihaptic::sound {
 
 struct Wave {
-    std::vector<float> samples;  ///< of one channel, from -1 to 1
+    std::vector<float> samples;  ///< samples of one channel, from -1 to 1
     bool goes_on = false;        ///< the first sample follows the last one
     double ramp = 0;             ///< time in which a continuous wave swells and fades [s]
 };

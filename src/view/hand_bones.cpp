@@ -13,7 +13,7 @@ using Lengths = std::array<double, 3>;
 // Bones of a hand 19 cm long [m].
 constexpr Lengths kThumb{0.045, 0.033, 0.028};
 constexpr Lengths kIndex{0.043, 0.026, 0.022};
-constexpr double kPad = 0.006;  // from the skin to the end of the bone
+constexpr double kPad = 0.006;  // depth of the end of the bone below the skin
 
 /// The hand's axes: a from thumb to index finger, f to the wrist, n out of the palm.
 struct Axes {

@@ -55,7 +55,7 @@ JointMark::JointMark(const scene::Joint& joint, const scene::Scene& scene)
     const Vec3 axis_W = joint.axis.normalized();
     axis_A_ = X_AW.R * axis_W;
     second_B_ = X_BW.R * joint.second_axis.normalized();
-    // from the first body's middle, or from beside the joint
+    // the spring starts at the first body's middle or, without one, beside the joint
     const Vec3 way = a_ < 0 ? Vec3(-4 * kHalfAxis * axis_W) : Vec3(pose(a_).p - joint.position);
     from_A_ = p_A_ + axis_A_ * axis_W.dot(way);
 }

@@ -13,7 +13,7 @@ namespace dihaptic::view {
 class JointMark {
   public:
     JointMark(const scene::Joint& joint, const scene::Scene& scene);
-    /// The displayed poses of the frame's bodies; `ball`: a ball of radius 1.
+    /// Adds the mark at the displayed poses of the frame's bodies. `ball`: a ball of radius 1.
     void add_to(Solids& out, const frame::Frame& frame, const gl::Model& ball) const;
 
   private:

@@ -30,7 +30,7 @@ class Movie {
     Output output_;
     Descriptor pictures_;  // socket from which ffmpeg reads pictures
     Descriptor said_;      // memory file to which ffmpeg writes its errors
-    Child ffmpeg_;         // last: it ends before the file is removed
+    Child ffmpeg_;         // declared last, so that it ends before the file is removed
 };
 
 }  // namespace dihaptic::view

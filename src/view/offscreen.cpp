@@ -63,7 +63,7 @@ Offscreen::Offscreen(int width, int height)
     glBindFramebuffer(GL_FRAMEBUFFER, c.framebuffer);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, c.colour);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        fail("a picture of this size does not fit its memory");
+        fail("a picture of this size does not fit into its memory");
 }
 
 Offscreen::~Offscreen() = default;

@@ -12,7 +12,7 @@ namespace dihaptic::view {
 /// draw into. Mesa uses a graphics card if permitted, and otherwise draws in software.
 class Offscreen {
   public:
-    /// Throws Error, naming the package to install, when there is no such OpenGL.
+    /// Throws Error, naming the package to install, when there is no OpenGL of this kind.
     Offscreen(int width, int height);
     ~Offscreen();
     Offscreen(const Offscreen&) = delete;

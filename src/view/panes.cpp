@@ -7,7 +7,7 @@ namespace dihaptic::view {
 namespace {
 
 constexpr double kNearestShare =
-    0.05;  // distance of the nearest visible things, over that of the screen
+    0.05;  // ratio of the nearest visible distance to that of the screen
 
 Viewpoint viewpoint(const display::Display& display, const Vec3& eye_W, double beyond) {
     Mat3 edges;

@@ -41,7 +41,7 @@ std::vector<Pane> panes(const display::Display& display, double beyond);
 struct FieldOfView {
     double left = 0, right = 0, up = 0, down = 0;
 };
-/// The view of such an eye at X_WE: E has x right, y up, and z backward, as in OpenXR. Things
+/// The view of a headset's eye at X_WE: E has x right, y up, and z backward, as in OpenXR. Things
 /// between these distances in front of the eye are drawn [m].
 Viewpoint viewpoint(const Pose& X_WE, const FieldOfView& sees, double nearest, double furthest);
 

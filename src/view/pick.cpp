@@ -64,7 +64,7 @@ std::optional<Seen> seen_first(const scene::Scene& scene, const frame::Frame& fr
     double nearest = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < scene.bodies.size(); ++i) {
         if (!frame::is_displayed(frame, i)) continue;
-        // in the body's own scale, since it may be shown enlarged
+        // in the body's own scale, since the body may be shown enlarged
         const Pose X_BW = frame::displayed_body(frame, i).inverse();
         const double size = frame::displayed_size(frame, i);
         const double length = size * length_to(triangles(scene.bodies[i]), X_BW * ray.from_W / size,

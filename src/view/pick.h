@@ -11,7 +11,7 @@ namespace dihaptic::view {
 /// A straight line of sight.
 struct Ray {
     Vec3 from_W = Vec3::Zero();
-    Vec3 along_W = Vec3::UnitY();  ///< of unit length
+    Vec3 along_W = Vec3::UnitY();  ///< direction, of unit length
 };
 /// The line of sight through a point in the camera's picture: `right` and `up` from its middle, as
 /// shares of half its height.

@@ -25,7 +25,7 @@ namespace {
 constexpr int kSamples = 4;
 constexpr int kShadowMap = 512;  // width in texels; half as many for pictures in less detail
 constexpr double kArrowPerNewton = 0.025;  // [m/N]
-constexpr double kDepthRange = 4;          // of the light [m]
+constexpr double kDepthRange = 4;          // along the light [m]
 
 /// Rotation R_LW into the light's frame: z is the depth, away from the light.
 Mat3 light_rotation() {
@@ -37,7 +37,7 @@ Mat3 light_rotation() {
 }
 
 constexpr double kRod = 0.01;      // so thin that its round ends have no visible length
-constexpr double kKnuckle = 1.04;  // over a bone's radius: hides the seam between two bones
+constexpr double kKnuckle = 1.04;  // times a bone's radius, to hide the seam between two bones
 
 /// The matrix that scales a model and places it at a pose.
 Eigen::Matrix4d placed(const Pose& X, const Vec3& scale = Vec3::Ones()) {
@@ -59,7 +59,7 @@ class KeepTarget {
     GLint target_ = 0;
 };
 
-/// The pose at a with z toward b.
+/// The pose at `a` whose z axis points toward `b`.
 Pose along(const Vec3& a, const Vec3& b) {
     return {Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), b - a)), a};
 }
@@ -394,7 +394,7 @@ void SceneView::set_detail(double share) {
     parts_->detail = share;
 }
 
-/// Requires the scissor test.
+/// Requires the scissor test to be on.
 void SceneView::Parts::draw_patch(const PatchLook& look) const {
     using display::Corner;
     const int edge = static_cast<int>(std::lround(look.patch.size * height));

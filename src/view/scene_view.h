@@ -38,12 +38,12 @@ struct Overlays {
     bool handles = false;                   ///< a ghost of each proxy at its handle
     bool forces = false;                    ///< contact forces on each finger, 25 mm/N
     bool contacts = false;                  ///< points of contact between bodies and fingers
-    bool grip_axis = false;                 ///< from the first finger to the middle of the others
+    bool grip_axis = false;                 ///< line from the first finger to the others' middle
     bool joints = false;                    ///< axes, points and springs of joints
     std::span<const Vec3> path;             ///< path of a body, in W [m]
     std::span<const Workspace> workspaces;  ///< workspaces of devices
     std::optional<PatchLook> patch;         ///< drawn once, regardless of the panes
-    bool drop_lines = false;                ///< from each proxy down to the table
+    bool drop_lines = false;                ///< line from each proxy down to the table
     bool hand = false;             ///< a hand with the proxies as its thumb and index finger
     std::optional<size_t> picked;  ///< a body marked by a box
 };
@@ -56,7 +56,7 @@ struct Shown {
 
 enum class Shadows {
     variance,  ///< soft, and softer the higher the body that casts them
-    plain,     ///< hard, by one comparison of depths: for measuring the cost of soft shadows
+    plain,     ///< hard, from one comparison of depths; used to measure the cost of soft shadows
 };
 
 /// OpenGL's name of the renderer in the current context.

@@ -51,7 +51,7 @@ void main() {
 )";
 
 const char* const kBackground = R"(
-uniform vec2 corner;  // of this part of the picture [pixels]
+uniform vec2 corner;  // corner of this part of the picture [pixels]
 uniform vec2 size;
 vec3 background() {
     vec2 at = (gl_FragCoord.xy - corner) / size;
@@ -106,7 +106,7 @@ out vec4 colour;
 uniform vec3 eye;
 uniform vec3 albedo;
 uniform float alpha;
-uniform float gloss;       // of the surface's coat, 0 to 1
+uniform float gloss;       // gloss of the surface's coat, 0 to 1
 uniform float grid;        // how dark the lines on its upper side are
 uniform float fade;        // beyond this distance from the middle it is the background; 0: never [m]
 uniform vec3 middle;
@@ -114,7 +114,7 @@ uniform bool shadowed;
 uniform vec3 light;        // toward it
 uniform mat4 light_from_world;
 uniform sampler2D moments;
-uniform float texel;       // of the map's finest level [m]
+uniform float texel;       // size of a texel of the map's finest level [m]
 
 #ifdef LOOKS
 in vec3 p_B;
@@ -162,9 +162,9 @@ vec3 reflectance(vec3 straight, float cosine) {
 #endif
 
 const float kLeast = 1.0e-7;     // variance [m^2]: a third of a millimetre
-const float kBleeding = 0.35;    // darker light than this is black
+const float kBleeding = 0.35;    // light darker than this is drawn black
 const float kLightSize = 0.10;   // standard deviation of the penumbra over the height
-const float kSearch = 0.015;     // that of the search for an occluder [m]
+const float kSearch = 0.015;     // standard deviation of the search for an occluder [m]
 
 float chebyshev(vec2 m, float t) {
     float above = t - m.x;
@@ -185,8 +185,8 @@ vec2 visibility(vec3 n) {
 #ifdef PLAIN
     return mix(vec2(1), vec2(t <= textureLod(moments, uv, 0.0).x ? 1 : 0, 1), inside);
 #else
-    // height of the occluder above: the mean of the depths is p of them at t, the
-    // others at the occluder's; where there is hardly any, the estimate fades out
+    // height of the occluder above: the share `around` of the depths is taken to be t, the rest
+    // the occluder's; where there is hardly any occluder, the estimate fades out
     vec2 wide = textureLod(moments, uv, round(level(kSearch))).rg;  // one level: half the work
     float around = chebyshev(wide, t);
     float above = (t - wide.x) / max(1.0 - around, 0.01) * smoothstep(0.0, 0.08, 1.0 - around);

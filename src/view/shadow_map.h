@@ -11,7 +11,8 @@ namespace dihaptic::view {
 
 class ShadowMap {
   public:
-    /// `size`: texels of the finest level, across, a power of two. The coarsest has sixteen.
+    /// `size`: number of texels across the finest level, a power of two. The coarsest level has
+    /// sixteen.
     explicit ShadowMap(int size);
 
     /// Renders moments. `light_from_world` takes W to x, y from -1 to 1 over the map and z, the

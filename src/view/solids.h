@@ -42,7 +42,7 @@ class Solids {
     const std::vector<Solid>& all() const { return all_; }
 
   private:
-    std::deque<gl::Model> made_;  // a deque, since all_ points into it as it grows
+    std::deque<gl::Model> made_;  // a deque, since all_ points into it while it grows
     std::vector<Solid> all_;
 };
 

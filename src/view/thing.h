@@ -20,8 +20,8 @@ struct Thing {
     Vec3 high_B = -low_B;
     Vec3 colour = Vec3::Ones();
     bool own_colours = false;  // the model's colours, in place of `colour`
-    bool ground = false;       // other bodies stand on it
-    double gloss = 1;          // of its coat, 0 to 1
+    bool ground = false;       // whether other bodies stand on it
+    double gloss = 1;          // gloss of its coat, 0 to 1
     double grid = 0;           // darkness of the lines on its upper side, 0 to 1
     double fade = 0;           // distance at which it has faded into the background; 0: never [m]
     bool metal = false;

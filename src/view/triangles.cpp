@@ -85,7 +85,7 @@ Triangles box(const Vec3& size) {
     return out;
 }
 
-/// A point of a profile in the plane of radius and z, and the outward normal there.
+/// A point of a profile in the plane of radius and z, and the outward normal at it.
 struct Profile {
     double r, z, n_r, n_z;
 };

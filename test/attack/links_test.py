@@ -22,7 +22,7 @@ import unittest
 
 sys.path.append("test/cli")
 from program import PROGRAM, dihaptic, patient
-import soak  # program.py says where it is
+import soak  # program.py adds its folder to the path
 
 PROGRAM = os.path.abspath(PROGRAM)
 SAMPLE = 25
@@ -46,7 +46,7 @@ def everything(folder):
 
 
 def set_trap(kind, name, foreign):
-    """Puts a trap at a name; what is there goes."""
+    """Puts a trap at a name, in place of what is there."""
     if name.is_symlink() or name.is_file():
         name.unlink()
     elif name.is_dir():
@@ -156,7 +156,7 @@ class Links(unittest.TestCase):
                 after = everything(place)
                 used = [path for path in {*before, *after} if before.get(path) != after.get(path)]
                 names = sorted({str(pathlib.Path(path).relative_to(place)) for path in used} | set(more))
-            # what the user names may be the user's link; a session's folder gets another name each time
+            # a path that the user gives may be the user's own link; a session's folder has another name each time
             names = [trap for trap in names if trap not in arguments or "." in trap]
             names = [trap for trap in names if not re.match(r"(s|\.)/\d{4}-|\d{4}-", trap) or trap in more]
             # only one of a report's figures, since all are written in the same way

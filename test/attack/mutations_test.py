@@ -17,19 +17,19 @@ import wave
 
 sys.path.append("test/cli")
 from program import PROGRAM, dihaptic, patient
-import soak  # program.py says where it is
+import soak  # program.py adds its folder to the path
 
 EACH = soak.of(60, 10_000)
 EACH_SESSION = soak.of(30, 2_000)
 BATCH = 50
-#: Time of the processor that a file may take [s].
+#: Processor time that reading a file may take [s].
 LONGEST = patient(2)
-#: What the program says of every file: its name comes first.
+#: What the program prints about a file begins with its name.
 LINE = re.compile(r"^(?P<file>/[^:]+):(?P<line>\d+:)? ", re.MULTILINE)
 
 
 def spent():
-    """Time of the processor of all programs that ended [s]."""
+    """Processor time of all programs that have ended [s]."""
     return sum(os.times()[2:4])
 
 
@@ -154,7 +154,7 @@ class Mutations(Attack):
         off = [self.write("block.off", "OFF\n4 4 6\n0 0 0\n40 0 0\n0 40 0\n0 0 40\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")]
         for files in (["meshes/pad.obj"], ["meshes/apple.ply"], stl[:1], stl[1:], off):
             with self.subTest(files=files):
-                # what reads a mesh has a limit of its own, 2 s, which one reaches whose head claims millions of faces
+                # the reader of meshes has its own limit of 2 s; a mesh whose header claims millions of faces reaches it
                 self.try_all(files, "mesh-*" + os.path.splitext(files[0])[1], scene.format, longest=patient(4), each=soak.of(15, EACH))
 
     def test_sounds(self):

@@ -21,7 +21,7 @@ import unittest
 
 sys.path.append("test/cli")
 from program import PROGRAM, dihaptic, patient
-import soak  # program.py says where it is
+import soak  # program.py adds its folder to the path
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(PROGRAM)), "python"))
 import dihaptic as dihaptic_package
@@ -65,7 +65,7 @@ class Words(unittest.TestCase):
         self.assert_refused(result, "the current folder", "is not UTF-8 text")
 
     def test_the_terminal_s_questions(self):
-        """They are asked before a real device is looked for, which is not there."""
+        """They are asked before a real device, which does not exist, is looked for."""
         here, there = pty.openpty()
         with subprocess.Popen([PROGRAM, "run", "experiments/first-trials.yaml", "--rig", "rigs/phantom-pair-openhaptics.yaml", "--out", str(self.out)],
                               stdin=there, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as program:
@@ -126,7 +126,7 @@ def any_text(chosen, n):
     return "".join(chosen.choice(letters) for _ in range(chosen.randrange(1, 12))) + str(n)
 
 
-#: Files in which each <name> is a text of that field.
+#: Files in which each <name> stands for the text of that field.
 FILES = {
     "scene.yaml": """title: <scene title>
 object: <body>
@@ -236,7 +236,7 @@ task:
           text: <page>
 """,
 }
-#: What each field gets if its text was refused.
+#: A placeholder for the text of a field.
 PLAIN = re.compile("<([a-z ]+)>")
 
 
@@ -257,7 +257,7 @@ class Fields(unittest.TestCase):
             for number, line in enumerate(form.splitlines(), 1):
                 fields[name, number] = PLAIN.findall(line)
             text = PLAIN.sub(lambda field: json.dumps(texts[field[1]], ensure_ascii=False), form)
-            # JSON leaves these as they are, which YAML does not take in a line
+            # JSON leaves these characters as they are, but YAML does not accept them within a line
             (self.folder / name).write_text(text.replace("\u2028", "\\u2028").replace("\u2029", "\\u2029").replace("\x7f", "\\x7f"))
         return fields
 
@@ -270,7 +270,7 @@ class Fields(unittest.TestCase):
         """The fields that errors are about, by file and line or by the option's name."""
         out = set()
         for name, line in re.findall(r"/([a-z]+\.yaml):(\d+): error: ", told):
-            # of a list, the line of its key
+            # for a field in a list, the error may be at the line of its key, just before
             out.update(fields[name, int(line)] or fields.get((name, int(line) + 1), ()))
         for option in ("participant", "age"):
             if re.search(rf"^({option}: error: |command line, word \d+: error: --{option}=)", told, re.MULTILINE):
@@ -284,7 +284,7 @@ class Fields(unittest.TestCase):
         while tried < soak.of(300, 20_000):
             texts = {name: any_text(chosen, n) for n, name in enumerate(names)}
             for option in ("participant", "age"):
-                texts[option] = texts[option].replace("\0", "\x01")  # no command line has such a letter
+                texts[option] = texts[option].replace("\0", "\x01")  # a command line cannot contain NUL
             tried += len(texts)
             while True:
                 fields = self.write(texts)

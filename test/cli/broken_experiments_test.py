@@ -88,7 +88,7 @@ task:
     - { name: shown, kind: perturbed, perturb: late, until: score >= 100 }
     - { name: held, kind: force_channel, perturb: channel }
 """
-# what stands in the good file, the mistake in its place, the key that the error names, and how to correct it
+# a text in the good file, the mistake that replaces it, the key that the error names, and the advice given
 MISTAKES = [
     # draws
     ("    - { name: wait_s, exp", "    - { nam: wait_s, exp", "nam", "Did you mean name?"),
@@ -327,7 +327,7 @@ class BrokenExperiments(unittest.TestCase):
             good = dihaptic("check", write("good.yaml", GOOD))
             self.assertEqual(good.returncode, 0, good.stdout)
             told = [line for line in good.stdout.splitlines() if ": warning: " in line]
-            self.assertEqual(len(told), 1, told)  # of the delay, by which people learn less
+            self.assertEqual(len(told), 1, told)  # the warning that people learn less with a delay
             self.assertIn("late: is shown late", told[0])
             files = []
             for i, (what, by, _, _) in enumerate(MISTAKES):

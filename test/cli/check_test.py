@@ -1,4 +1,4 @@
-"""`dihaptic check`: what it says of files that are good, bad, or damaged.
+"""`dihaptic check`: what it says about files that are good, bad, or damaged.
 
 Usage: check_test.py PROGRAM, from the project's folder.
 """

@@ -16,7 +16,7 @@ import unittest
 
 from program import PROGRAM, dihaptic, patient
 
-import needs  # program.py says where it is
+import needs  # program.py adds its folder to the path
 import soak
 
 TABLES = ["trials.csv", "people.csv", "adaptation.csv", "fits.csv"]
@@ -42,7 +42,7 @@ def times_of(folder):
 
 class InShards(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="50%a of ")  # what shells and Slurm take for something else
+        folder = tempfile.TemporaryDirectory(prefix="50%a of ")  # characters that shells and Slurm interpret
         self.addCleanup(folder.cleanup)
         self.folder = folder.name
         self.experiment = self.folder + "/it's short.yaml"
@@ -130,7 +130,7 @@ class Slurm(InShards):
         self.assertEqual(collect(self.out).returncode, 0)
         shutil.rmtree(f"{self.out}/sim-004")
         self.assertEqual(self.rehearse("--slurm", "4", env=self.environment).returncode, 0)
-        self.assertIn("/4\"\n", script.read_text())  # of other shards
+        self.assertIn("/4\"\n", script.read_text())  # the script is for another number of shards
         self.assertEqual(self.submitted()[2:], ["4"])
 
     @soak.alone
@@ -146,7 +146,8 @@ class Slurm(InShards):
         result = self.by_slurm(FAKE_REFUSE="1")
         self.assertEqual(result.returncode, 2)
         self.assertIn("Invalid account", result.stderr)
-        self.assertIn("error: is refused by sbatch, whose reason is printed above. Solve this problem, then type this.\n"
+        self.assertIn("error: is refused by sbatch, whose reason is printed above. Solve this problem, "
+                      "then type the command below.\n"
                       f"sbatch '{self.out}/slurm.sh'\n", result.stderr)
 
     def test_without_sbatch_the_script_is_written_and_parallel_named(self):
@@ -202,7 +203,7 @@ PATH={shlex.quote(self.slurm)}/inside:$PATH APPTAINER_CONTAINER={shlex.quote(con
         script = pathlib.Path(self.out, "slurm.sh")
         script.write_text(script.read_text().replace("#SBATCH", "#SBATCH --account=lab\n#SBATCH", 1))
         shutil.rmtree(f"{self.out}/sim-004")
-        # a folder may be a stranger's, and the container that it names his program: the user's own is what may be typed
+        # the folder, and the container that it names, may be a stranger's: the command shown names the user's own program
         self.assertIn(".sif", pathlib.Path(self.out, "rehearsal.yaml").read_text())
         self.assertRegex(collect(self.out).stdout, r"working on them: /\S*/dihaptic rehearse .* --shard 4/8\n")
         unpacked = collect(self.out, env=dict(os.environ, APPTAINER_CONTAINER=self.slurm))
@@ -217,7 +218,7 @@ PATH={shlex.quote(self.slurm)}/inside:$PATH APPTAINER_CONTAINER={shlex.quote(con
         self.assertEqual(collect(self.out).returncode, 0)
         shutil.rmtree(f"{self.out}/sim-004")
         self.assertEqual(self.by_slurm().returncode, 0)
-        self.assertNotIn("apptainer", script.read_text())  # it was not asked for this time
+        self.assertNotIn("apptainer", script.read_text())  # no container was asked for this time
 
     @soak.alone
     def test_without_sbatch_a_container_is_named_for_parallel(self):
@@ -258,10 +259,10 @@ class Parallel(InShards):
     def setUp(self):
         needs.for_this_test("parallel", "parallel")
         super().setUp()
-        # where the example's paths lead, and its folder rehearsals/ may be made
+        # a folder in which the example's paths exist, and in which it may make its folder rehearsals/
         for name in ("experiments", "scenes", "rigs", "movements", "meshes", "populations"):
             os.symlink(os.path.abspath(name), f"{self.folder}/{name}")
-        wrapper = pathlib.Path(self.folder, "dihaptic")  # whose process can be found by the shard's name
+        wrapper = pathlib.Path(self.folder, "dihaptic")  # makes its process findable by the shard's name
         wrapper.write_text('#!/bin/sh\nfor last; do :; done\necho $$ >"$0-${last%/*}"\n'
                            f'exec {os.path.abspath(PROGRAM)} "$@"\n')
         wrapper.chmod(0o755)
@@ -282,7 +283,7 @@ class Parallel(InShards):
             os.kill(int(child), signal.SIGKILL)
         os.kill(shard, signal.SIGKILL)
         said = process.communicate(timeout=patient(300))[0]
-        self.assertEqual(process.returncode, 1, said)  # one has failed
+        self.assertEqual(process.returncode, 1, said)  # because one session has failed
         result = collect(out)
         self.assertEqual(result.returncode, 1)
         self.assertEqual(re.findall("missing: .*", result.stdout), ["missing: shard 2/4: sim-002 (not ended)"])

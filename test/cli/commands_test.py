@@ -11,7 +11,7 @@ import unittest
 
 from program import PROGRAM, dihaptic
 
-import needs  # program.py says where it is
+import needs  # program.py adds its folder to the path
 
 
 def commands(of=()):

@@ -1,4 +1,4 @@
-"""Sessions of which something is damaged, changed or lost.
+"""Sessions in which something is damaged, changed or lost.
 
 Usage: damage_test.py PROGRAM, from the project's folder.
 """
@@ -11,7 +11,7 @@ import unittest
 
 from program import MADE, SHORT, dihaptic, session_of, with_largest_file
 
-import soak  # program.py says where it is
+import soak  # program.py adds its folder to the path
 
 BLOCK = "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 TICKS = 201
@@ -137,7 +137,7 @@ class Damage(unittest.TestCase):
 
     def test_a_session_is_complete_only_with_all_of_its_files(self):
         sizes = [os.path.getsize(self.folder + name) for name in ["raw.log", "session.nwb"]]
-        self.assertLess(*sizes)  # so there is a limit that the log keeps
+        self.assertLess(*sizes)  # so a limit between the sizes allows only the log
         out = self.out + "/full"
         result = dihaptic("run", self.out + "/../short.yaml", "--out", out, preexec_fn=with_largest_file(sum(sizes) // 2))
         self.assertEqual(result.returncode, 2, result.stderr)

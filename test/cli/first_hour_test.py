@@ -15,7 +15,7 @@ import unittest
 
 from program import PROGRAM, dihaptic, patient, with_largest_file
 
-import needs  # program.py says where it is
+import needs  # program.py adds its folder to the path
 
 HERE = pathlib.Path(PROGRAM).resolve()
 MADE_FROM = pathlib.Path("app/cli/new_study").resolve()
@@ -169,7 +169,7 @@ class Readme(FirstHour):
                 self.assertIsNone(window.poll(), log.read())
                 self.assertLess(time.monotonic(), end)
                 time.sleep(0.1)
-            # there is no window manager that gives it the keyboard
+            # there is no window manager to give the window the keyboard
             subprocess.run(["xdotool", "windowfocus", "--sync", found.split()[-1], "key", "ctrl+q"],
                            env=self.environment, timeout=patient(60))
             self.assertEqual(window.wait(patient(60)), 0)
@@ -269,7 +269,7 @@ class Doctor(FirstHour):
                     for name in re.findall(r"add_executable\(dihaptic-(\w+)", file.read_text())}
         self.assertGreaterEqual(programs, {"gui", "host", "mesh", "decompose"})
         _, found = self.doctor()
-        for name in programs - {"bench"}:  # which labs need not have
+        for name in programs - {"bench"}:  # the benches are optional for labs
             self.assertEqual(self.verdict(found, name), "ok", name)
 
     def test_says_when_sessions_cannot_be_recorded(self):
@@ -310,7 +310,7 @@ class Doctor(FirstHour):
                                   env=dict(os.environ, LD_LIBRARY_PATH=str(self.folder)), text=True)
         self.addCleanup(doctor.stdout.close)
         for line in doctor.stdout:
-            if " haply " in line:  # OpenHaptics is next
+            if " haply " in line:  # the line on OpenHaptics is next
                 break
         time.sleep(1)
         asked = time.monotonic()

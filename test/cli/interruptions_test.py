@@ -19,7 +19,7 @@ import time
 import unittest
 
 from program import MADE, PROGRAM, SLOWNESS, dihaptic, patient, session_of, wait_for_log, with_largest_file
-import soak  # program.py says where it is
+import soak  # program.py adds its folder to the path
 
 REAL_CLOCK = ["--clock", "real"]
 
@@ -74,7 +74,7 @@ class Interruptions(unittest.TestCase):
                                            stdin=slave, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
                                            start_new_session=True, preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
                 wait_for_log(out, 100000)
-                os.write(master, b"q")  # no other key does
+                os.write(master, b"q")  # any other key has no effect
                 time.sleep(0.2)
                 self.assertIsNone(process.poll())
                 os.write(master, key)
@@ -144,13 +144,13 @@ class Interruptions(unittest.TestCase):
             folder = session_of(out)
             self.assertTrue(os.path.exists(folder + "session.nwb"))
             self.assertIn("state: interrupted", pathlib.Path(folder + "session.yaml").read_text())
-            # a machine that stood still for too long has switched force off before
+            # if the machine stood still for too long, force was switched off before the interruption
             self.assertRegex(pathlib.Path(folder + "trials.csv").read_text(), "interrupted|force off")
 
     def test_kill_loses_at_most_a_tenth_of_a_second(self):
         with tempfile.TemporaryDirectory() as out:
             process = self.start(out, *REAL_CLOCK)
-            # the log as it stands, and when: from there on real time counts the frames
+            # a copy of the log, and its time: from then on, real time gives the number of frames
             wait_for_log(out, 100000)
             folder = session_of(out)
             snapshot = pathlib.Path(folder + "raw.log").read_bytes()
@@ -167,7 +167,7 @@ class Interruptions(unittest.TestCase):
             recovered = self.frames_of(result.stdout)
             pathlib.Path(earlier + "/raw.log").write_bytes(snapshot)
             before = self.frames_of(dihaptic("recover", earlier).stdout)
-            ticks = before + (killed_at - seen_at) * 1000 / SLOWNESS  # a loop that is late leaves ticks out
+            ticks = before + (killed_at - seen_at) * 1000 / SLOWNESS  # a loop that is late skips ticks
             self.assertGreater(recovered, ticks - 100 - 50)  # 50 ms for this script's own waits
             self.assertTrue(os.path.exists(folder + "session.nwb"))
 
@@ -184,7 +184,7 @@ class Interruptions(unittest.TestCase):
                 process.kill()
                 process.communicate()
                 if process.returncode == 0:
-                    continue  # it was faster
+                    continue  # the session ended before the kill
                 kills += 1
                 folder = session_of(out)
                 self.assertIn("state: running", pathlib.Path(folder + "session.yaml").read_text())
@@ -214,7 +214,7 @@ class Interruptions(unittest.TestCase):
             self.assertEqual(dihaptic("run", "scenes/block-on-table.yaml", "--out", out).returncode, 0)
             folder = session_of(out)
             whole = os.path.getsize(folder + "session.nwb")
-            # where the thread sanitizer would write a file of its own as a program starts
+            # TMPDIR is where the thread sanitizer would write a file of its own when a program starts
             nowhere = dict(os.environ, TMPDIR="/nowhere")
             for share in [0, 0.001, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.99, 0.999]:
                 for name in MADE:

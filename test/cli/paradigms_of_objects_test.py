@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
-G = 9.81  # of the scenes [m/s^2]
+G = 9.81  # gravity in the scenes [m/s^2]
 
 
 class Person:
@@ -100,13 +100,13 @@ class Paradigms(unittest.TestCase):
         person = self.rehearse("cue-integration", {"left", "right", "not felt"}, asks=True)
         bars = ["standard", "bar_49", "bar_52", "bar_55", "bar_58", "bar_61"]
         self.assert_drawn_equally([row for row in person.trials if row["block"] == "clear"], "modality", "width_mm")
-        felt = person["index_proxy_position"][:, 0] - person["thumb_proxy_position"][:, 0] - 5e-3  # less two half pads
+        felt = person["index_proxy_position"][:, 0] - person["thumb_proxy_position"][:, 0] - 5e-3  # less half of each pad
         for row in person.trials:
             if row["outcome"] == "not felt":
                 continue
             at = person.ticks(row)[400]
             hidden = {bars[int(body) - 2] for body, hides, _, _ in person.rows("task_looks", at) if hides and body >= 2}
-            self.assertEqual(hidden, set(bars))  # before the trial's modality is known
+            self.assertEqual(hidden, set(bars))  # all are hidden until the trial's modality is known
             if row["modality"] == "vision":
                 self.assertEqual(float(row["peak_force_N"]), 0)
                 self.assertGreater(person["standard_position"][at][1], 0.05)
@@ -144,13 +144,13 @@ class Paradigms(unittest.TestCase):
             rates = person["swing_angular_velocity"][np.append(ticks, ticks[-1] + 1)]
             acceleration = np.diff(person["cup_velocity"][np.append(ticks, ticks[-1] + 1), 0]) / 1e-3
             asked = -(G * np.sin(angle) + acceleration * np.cos(angle)) / length
-            self.assertLess(np.max(np.abs(np.diff(rates) / 1e-3 - asked)), 1e-2)  # of up to 100 rad/s^2
+            self.assertLess(np.max(np.abs(np.diff(rates) / 1e-3 - asked)), 1e-2)  # accelerations reach 100 rad/s^2
             expected = pendulum(angle[0], rates[:2].mean(), acceleration, length)
             self.assertLess(np.max(np.degrees(np.abs(angle - expected))), 0.1)
             to_ball = person["ball_position"][ticks] - person["cup_position"][ticks]
             np.testing.assert_allclose(np.arctan2(to_ball[:, 0], -to_ball[:, 2]), angle, atol=1e-6)
             self.assertLess(np.max(np.abs(np.linalg.norm(to_ball, axis=1) - 0.1)), 1e-6)
-            # what the hinge does to the ball: its weight, and what keeps it on the circle
+            # the hinge's force bears the ball's weight and keeps the ball on the circle
             rate = (rates[1:] + rates[:-1]) / 2
             pull = 0.06 * (G * np.cos(angle) + 0.1 * rate**2 - acceleration * np.sin(angle))
             along = np.sum(person["swing_force"][ticks] * -to_ball / 0.1, axis=1)
@@ -160,29 +160,29 @@ class Paradigms(unittest.TestCase):
 
     def test_divergent_field(self):
         person = self.rehearse("divergent-field", {"reached", "driven off", "too slow"})
-        handle = 1  # the scene has a table, and then the index finger
+        handle = 1  # bodies come first: 0 is the table, 1 the index finger
         deviations = {"baseline": [], "perturbed": [], "catch": [], "washout": []}
         for row in person.trials:
             if row["lateral_deviation_mm"]:
                 deviations[row["kind"]].append(float(row["lateral_deviation_mm"]))
             ticks = person.ticks(row)
-            ticks = ticks[person.phase[ticks] >= 2][:-1]  # in its last tick nothing acts any more
+            ticks = ticks[person.phase[ticks] >= 2][:-1]  # in the trial's last tick, no load acts any more
             pushed = person.load_on(handle, ticks)[:, 0]
             if row["kind"] != "perturbed":
                 self.assertEqual(np.max(np.abs(pushed)), 0)
                 continue
             x = person["index_handle_position"][ticks, 0]
-            risen = np.arange(len(ticks)) >= 50  # ms of its profile
+            risen = np.arange(len(ticks)) >= 50  # the load's profile takes 50 ms
             inside, beyond = np.abs(x) < 0.025, np.abs(x) > 0.04
             np.testing.assert_allclose(pushed[risen & inside], 120 * x[risen & inside], atol=1e-5)
-            self.assertLessEqual(np.max(np.abs(pushed), initial=0), 120 * 0.025 * 1.001)  # it only fades beyond
+            self.assertLessEqual(np.max(np.abs(pushed), initial=0), 120 * 0.025 * 1.001)  # beyond 25 mm the force only fades
             np.testing.assert_array_equal(pushed[beyond], 0)
-            # who was there is driven off: nobody else is
+            # a trial ends with 'driven off' exactly if the hand was beyond 25 mm
             self.assertEqual(row["outcome"] == "driven off", bool(np.any(np.abs(x) > 0.025)))
         spread = {kind: np.sqrt(np.mean(np.square(values))) for kind, values in deviations.items()}
         self.assertGreater(spread["perturbed"], 1.2 * spread["baseline"])
         self.assertGreater(spread["perturbed"], 1.2 * spread["washout"])
-        # to either side
+        # deviations go to both sides
         self.assertGreater(np.max(deviations["perturbed"]), 10)
         self.assertLess(np.min(deviations["perturbed"]), -10)
 
@@ -213,7 +213,7 @@ class Paradigms(unittest.TestCase):
         for row in person.trials:
             force, squeezed, k = (float(row[name]) for name in ("next_force_N", "next_squeezed_mm", "K_N_m"))
             self.assertAlmostEqual(force, k * squeezed * 1e-3, delta=0.02 * force)  # F = K x
-            last = person.ticks(row)[-2]  # in the last tick nothing acts any more
+            last = person.ticks(row)[-2]  # in the last tick, no load acts any more
             displacement = person["spring_displacement"][last]
             self.assertAlmostEqual(person["spring_force"][last, 0], -k * displacement, delta=0.01)
 
@@ -251,7 +251,7 @@ class Paradigms(unittest.TestCase):
             wait = person.ticks(row, 2)
             self.assertAlmostEqual(len(wait) * 1e-3, float(row["wait_s"]), delta=2e-3)
             hangs = person["ball_position"][wait, 2]
-            np.testing.assert_allclose(hangs, 0.22, atol=1.1 * G * 1e-6)  # but for what gravity makes of it in a tick
+            np.testing.assert_allclose(hangs, 0.22, atol=1.1 * G * 1e-6)  # except for the fall in one tick
             drop = person.ticks(row, 3)
             self.assertEqual(len(drop) > 0, row["ball_falls"] == "yes")
             if row["ball_falls"] == "no":
@@ -265,7 +265,7 @@ class Paradigms(unittest.TestCase):
             self.assertAlmostEqual(landed * 1e-3, fall, delta=3e-3)
             self.assertAlmostEqual(speed[landed - 1], -G * fall, delta=0.03)
             answers.append(float(row["grip_latency_s"]) - fall)
-        # Johansson and Westling: 60 to 100 ms after the blow; simulated people: up to 20 ms off that
+        # Johansson and Westling found 60 to 100 ms after the impact; simulated people differ by up to 20 ms
         self.assertGreater(np.median(answers), 0.04)
         self.assertLess(np.median(answers), 0.12)
         self.assertGreater(len(answers), 10)
@@ -294,7 +294,7 @@ class Paradigms(unittest.TestCase):
             self.assertAlmostEqual(loads["left"][both[-1]], weight, delta=0.1 * weight)
             self.assertGreater(np.min(person["block_position"][np.concatenate([offer, both]), 2]), 0.08)  # it never fell
             self.assertAlmostEqual(person["block_position"][carry[-1], 2], 0.02, delta=2e-3)
-            self.assertGreater(float(row["reaction_time_s"]), 0.1)  # nobody lets go before being told
+            self.assertGreater(float(row["reaction_time_s"]), 0.1)  # nobody lets go before the signal
 
     # 14. Johansson et al. 2001
 
@@ -315,12 +315,13 @@ class Paradigms(unittest.TestCase):
             if row["outcome"] != "carried":
                 continue
             block = person["block_position"][ticks]
-            over = np.abs(block[:, 0]) < 0.024  # some of it is above the wall
+            over = np.abs(block[:, 0]) < 0.024  # part of the block is above the wall
             self.assertGreater(np.min(block[over, 2]) - 0.020, float(row["height_mm"]) * 1e-3)
-            self.assertLess(np.linalg.norm(block[-1] - [0.07, 0, 0.02]), 0.02)  # in the goal
+            self.assertLess(np.linalg.norm(block[-1] - [0.07, 0, 0.02]), 0.02)  # it ends in the goal
             heights.setdefault(row["height_mm"], []).append(1e3 * np.max(block[over, 2]))
         means = [np.mean(heights[height]) for height in ("0", "20", "50")]
-        # the way leads 30 mm above each; direction noise of 5 degrees in 140 mm leaves some 12 mm of one, 6 of a mean
+        # paths lead 30 mm above each wall; direction noise of 5 degrees over 140 mm makes a path vary by about 12 mm,
+        # and a mean by 6
         self.assertAlmostEqual(means[1] - means[0], 20, delta=15)
         self.assertAlmostEqual(means[2] - means[0], 50, delta=15)
 

@@ -70,7 +70,7 @@ class Paradigms(unittest.TestCase):
         loaded = where(done.trials, kind="perturbed")
         latency = {name: numbers(where(loaded, condition=name), "grip_latency_s")
                    for name in ["step", "4 N per s", "2 N per s"]}
-        # a reflex latency of 75 ms, and what the load and the muscle need
+        # a reflex latency of 75 ms, plus the delays of the load and the muscle
         self.assertEqual(len(latency["step"]), 8)
         self.assertTrue(all(0.04 < t < 0.15 for t in latency["step"]), latency)
         # a ramp has to grow by 15 % of a weight of 1 N before it is answered: 37 ms at 4 N/s, twice that at 2 N/s
@@ -114,7 +114,7 @@ class Paradigms(unittest.TestCase):
         self.assertGreater(late, before + 0.25)
         self.assertLess(late, 1)
         self.assertLess(after, late - 0.15)
-        # nothing but a channel is one: not the plane, in which each trial is
+        # the plane that holds every trial does not count as a channel
         for row in done.trials:
             if row["kind"] != "force_channel":
                 self.assertEqual(row["adaptation_index"], "")
@@ -127,7 +127,8 @@ class Paradigms(unittest.TestCase):
         self.assertLess(early, -8)
         self.assertGreater(learned, early / 1.3)
         self.assertGreater(aftereffect, 2)
-        # each person's, whatever the swing back: the field pushes to the right, the after-effect goes to the left
+        # for each person, and regardless of the swing back, the field pushes to one side, and the after-effect goes to
+        # the other
         for rows in done.people:
             first = [numbers([row for row in where(rows, block=block) if row["kind"] != "force_channel"], "lateral_deviation_mm")
                      for block in ("field", "washout")]
@@ -142,11 +143,11 @@ class Paradigms(unittest.TestCase):
         def rate(block, perturbation):
             return median(numbers(where(done.trials, block=block, perturbation=perturbation), "peak_load_rate_N_s"))
 
-        # the expected load over the time that it takes, 1.1 W / (0.16 s + 0.028 s/N W), is 1.6 times as much for 400 g
+        # the expected load divided by its rise time, 1.1 W / (0.16 s + 0.028 s/N W), is 1.6 times as large for 400 g
         self.assertGreater(rate("400 g expected", "400 g"), 1.25 * rate("200 g expected", "200 g"))
         self.assertGreater(rate("400 g expected", "200 g"), 1.25 * rate("200 g expected", "200 g"))
         self.assertLess(rate("200 g expected", "400 g"), 0.8 * rate("400 g expected", "400 g"))
-        # what is heavier than expected comes off late, by a second rise; what is lighter comes off early
+        # a block heavier than expected lifts off late, after a second rise of force; a lighter one lifts off early
         loading = {}
         for i, rows in enumerate(done.people):
             of = {row["trial_num"]: (row["block"], row["perturbation"]) for row in rows}
@@ -190,8 +191,8 @@ class Paradigms(unittest.TestCase):
         self.assertEqual(len(times), 5)
         ids = sorted(times)
         slope, r = line(ids, [fmean(times[i]) for i in ids])
-        # a further stroke takes 0.2 s, after what the first one missed was seen for some 0.16 s: nearly each reach needs
-        # one at 5.3 bits, half of them or fewer at 1.3
+        # a further stroke takes 0.2 s, and begins when the error of the first has been seen for about 0.16 s: nearly every
+        # reach needs one at 5.3 bits, and at most half of them at 1.3
         self.assertTrue(0.03 < slope < 0.15, slope)
         self.assertGreater(r, 0.85)
         # medians, since a reaction now and then takes a second

@@ -104,7 +104,7 @@ class Commands(unittest.TestCase):
             self.assertIn("/none/x.mp4: error: cannot be written: No such file or directory", result.stderr)
             for signal_ in (signal.SIGINT, signal.SIGTERM):
                 process = subprocess.Popen([PROGRAM, *command], stderr=subprocess.PIPE, text=True)
-                process.stderr.readline()  # it has begun
+                process.stderr.readline()  # waits until it has begun
                 process.send_signal(signal_)
                 self.assertIn("interrupted: there is no video", process.communicate(timeout=patient(60))[1])
                 self.assertEqual(process.returncode, 1)

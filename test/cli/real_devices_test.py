@@ -16,7 +16,7 @@ import unittest
 
 from program import PROGRAM, dihaptic, patient, session_of, wait_for_log
 
-# the makers' fakes pass for real devices: a busy machine that leaves hands without an answer shall not end the session
+# fakes of the makers' software pass for real devices: a busy machine's pauses must not end the session
 PATIENT = "max_pause_ms: 1000, hand_damping_Ns_m: 100"
 
 

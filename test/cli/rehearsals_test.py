@@ -81,7 +81,7 @@ class Rehearsals(unittest.TestCase):
         self.assertEqual(self.rehearse(out).returncode, 0)
         before = self.tables(out)
         shutil.rmtree(out + "/sim-002")
-        os.makedirs(out + "/unfinished-sim-003")  # as a kill leaves it
+        os.makedirs(out + "/unfinished-sim-003")  # as left by a killed process
         shutil.rmtree(out + "/sim-003")
         kept = os.path.getmtime(out + "/sim-001/trials.csv")
         result = self.rehearse(out)
@@ -168,7 +168,7 @@ groups:
         self.assertEqual([row["slow_retention"] == "0.9" for row in people], [False, True] * 2)
         self.assertEqual({(row["id"], row["group"]) for row in self.rows(out, "trials.csv")},
                          {(row["id"], row["group"]) for row in people})
-        # one of them alone is the same person, with the same order of trials
+        # simulated alone, one of them is the same person, with the same order of trials
         result = dihaptic("run", self.experiment, "--simulate", "--participant", "sim-002", "--population", population,
                           "--out", self.folder + "/one")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -205,7 +205,7 @@ groups:
         self.assertIn("1 session, ", lines[3])
         subprocess.run(lines[1].partition("working on them: ")[2], shell=True, cwd="/", check=True, capture_output=True)
         self.assertEqual(self.tables(out), before)
-        # what was asked for last is what counts
+        # the last rehearsal determines who is missing
         self.assertEqual(self.rehearse(out, "--people", "1", "--seed", "7").returncode, 0)
         shutil.rmtree(out + "/sim-002")
         self.assertEqual(dihaptic("collect", out).returncode, 0)

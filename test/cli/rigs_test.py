@@ -38,7 +38,7 @@ class Commands(unittest.TestCase):
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertRegex(result.stdout, r"shared +\d+\.\d\d litres")
             self.assertIn("largest sphere in it", pathlib.Path(picture).read_text())
-            # what it proposes is what a rig file may say, and then says so
+            # the keys that it proposes are valid in a rig file, and are then reported as set
             rig = folder + "/rig.yaml"
             proposed = "".join(re.findall(r"^(?:origin_mm|wall): .*\n", result.stdout, re.MULTILINE))
             pathlib.Path(rig).write_text(pathlib.Path("rigs/premium-arms.yaml").read_text() + proposed)
@@ -50,7 +50,7 @@ class Commands(unittest.TestCase):
                                          + "wall: { centre_mm: [0, 0, 70], size_mm: [600, 600, 600] }\n")
             result = dihaptic("workspace", rig, "-o", picture)
             self.assertEqual(result.returncode, 1, result.stderr)
-            self.assertRegex(result.stdout, r"not all devices reach: \d\d\.\d % of it")
+            self.assertRegex(result.stdout, r"not all devices reach, in \d\d\.\d % of it")
             result = dihaptic("workspace", "rigs/ideal-pair.yaml", "-o", picture)
             self.assertEqual(result.returncode, 2, result.stdout)
             self.assertIn("rigs/ideal-pair.yaml:5: error: options: the thumb's device does not state its reach."
@@ -74,7 +74,7 @@ class Commands(unittest.TestCase):
             self.assertTrue(pathlib.Path(folder + "/mine.svg").exists())
             result = dihaptic("check", rig)
             self.assertEqual(result.returncode, 0, result.stdout)
-            # an old one is warned of, and a session keeps the one that it was made with
+            # an old calibration gives a warning, and a session keeps a copy of its own
             mine = pathlib.Path(folder + "/mine.yaml")
             mine.write_text(re.sub(r"date: .*", "date: 2020-01-01", mine.read_text()))
             result = dihaptic("run", "experiments/lift-block.yaml", "--rig", rig, "--out", folder + "/sessions")

@@ -72,7 +72,7 @@ class Commands(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             text = pathlib.Path("movements/reach-to-grasp.csv").read_text()
             lines = text.splitlines()
-            # b: the index was seen in one line of twelve
+            # in b, the index finger was seen in few lines
             thin = [line if i % 12 < 2 else ",".join(line.split(",")[:4] + [""] * 3 + ["0"]) for i, line in enumerate(lines)]
             late = lines[:-1] + ["1e303" + lines[-1][lines[-1].index(","):]]
             for name, content in [("a.csv", text), ("b.tsv", "\n".join(thin)), ("broken.csv", text.replace("0.000,", "x,", 1)),
@@ -102,7 +102,7 @@ class Commands(unittest.TestCase):
             process = subprocess.Popen([PROGRAM, "run", "experiments/reach-to-grasp.yaml", "--movement", folder, "--out", out],
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
             for _ in range(3):
-                process.stdout.readline()  # the head, and two movements
+                process.stdout.readline()  # reads the head, and two movements
             process.kill()
             process.communicate()
             self.assertGreaterEqual(len(pathlib.Path(out + "/summary.csv").read_text().splitlines()), 2)

@@ -191,7 +191,7 @@ class Schemas(unittest.TestCase):
         cls.schemas = {kind: Schema(kind) for kind in FOLDERS}
         cls.files = {kind: {path: yaml.load(path.read_text(), Yaml12) for path in sorted(pathlib.Path(folder).glob("*.yaml"))}
                      for kind, folder in FOLDERS.items()}
-        # what a file names is beside its copy too
+        # the files that a file names are copied along with it
         cls.folder = tempfile.TemporaryDirectory()
         for name in [*FOLDERS.values(), "meshes", "textures", "movements"]:
             shutil.copytree(name, pathlib.Path(cls.folder.name, name))

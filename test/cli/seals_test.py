@@ -14,16 +14,16 @@ import tempfile
 import unittest
 
 from program import dihaptic
-import soak  # program.py says where it is
+import soak  # program.py adds its folder to the path
 
 MISCHIEFS = soak.of(30, 200)
 PEOPLE = ["sim-001", "sim-002", "sim-003"]
-#: What report reads of a session.
+#: Files of a session that report reads.
 READ = ["trials.csv"]
 
 
 def rewritten(path, change):
-    """Replaces a text by what a function makes of it, which must be another."""
+    """Replaces a text by what a function makes of it, which must differ."""
     path = pathlib.Path(path)
     before = path.read_text()
     after = change(before)
@@ -213,7 +213,7 @@ class Seals(unittest.TestCase):
                 one, two = draw.sample(PEOPLE, 2)
                 name = mischief(study / one, study / two, draw)
                 said = self.expect_refused(study, out, name)
-                self.assertRegex(said, r"error: .*\. [A-Z]")  # what is wrong, and what to do
+                self.assertRegex(said, r"error: .*\. [A-Z]")  # the message gives the fault and the remedy
                 if name in READ and mischief is not exchange_folders:
                     self.expect_report_tells(study / one, name)
 
@@ -251,7 +251,7 @@ class Seals(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(result.stdout.count("these sessions have no seal"), 1, result.stdout)
         shutil.rmtree(out)
-        # what shows without seals
+        # changes that are noticed without seals
         rewritten(study / "sim-002/trials.csv", lambda text: text[:-30])
         self.expect_refused(study, out, "sim-002/trials.csv:", "cell")
         shutil.copy(self.made / "sim-002/trials.csv", study / "sim-002/trials.csv")

@@ -14,7 +14,7 @@ import time
 import unittest
 
 from program import PROGRAM, dihaptic, patient, session_of
-import soak  # program.py says where it is
+import soak  # program.py adds its folder to the path
 
 
 class SessionFiles(unittest.TestCase):
@@ -84,7 +84,7 @@ task:
                 ["report", session], ["export", session, "--bids", self.out + "/study"]]
 
     def test_no_command_hangs_or_crashes_on_what_is_no_file(self):
-        # by file: the commands that require it
+        # for each file, the commands that require it
         needed = {"raw.log": ["recover", "resume", "replay", "report", "export"],
                   "session.yaml": ["report", "export"],
                   "scene.yaml": ["replay", "resume"], "settings.yaml": ["replay", "resume"],
@@ -189,14 +189,14 @@ task:
         with tempfile.TemporaryDirectory() as folder:
             command = [PROGRAM, "video", str(scene), "--size", "64x48", "-o", folder + "/v.mp4"]
             process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-            process.stderr.readline()  # it has begun
+            process.stderr.readline()  # waits until it has begun
             while not os.listdir(folder):
                 time.sleep(0.01)
             process.kill()
             process.communicate()
             (left,) = os.listdir(folder)
             self.assertTrue(left.endswith(".part"), left)
-            other = pathlib.Path(folder + "/v.mp4.1.part")  # of a program that lives
+            other = pathlib.Path(folder + "/v.mp4.1.part")  # belongs to a running program
             other.write_text("")
             self.assertEqual(subprocess.run(command, capture_output=True).returncode, 0)
             self.assertEqual(sorted(os.listdir(folder)), ["v.mp4", "v.mp4.1.part"])

@@ -64,7 +64,7 @@ class Slurm(unittest.TestCase):
         daemons = tempfile.TemporaryDirectory(prefix="slurm-")
         self.addCleanup(daemons.cleanup)
         self.daemons = daemons.name
-        os.chmod(self.daemons, 0o711)  # munge wants its socket to be open to all; its key is not
+        os.chmod(self.daemons, 0o711)  # munge requires its socket, but not its key, to be accessible to all
         self.start_slurm()
 
     def start_slurm(self):

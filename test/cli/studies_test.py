@@ -16,7 +16,7 @@ import unittest
 
 from program import PROGRAM, dihaptic, wait_for_log
 
-import soak  # program.py says where it is
+import soak  # program.py adds its folder to the path
 
 STUDY = """title: Two days
 groups: [{ name: gradual, people: 2 }, { name: abrupt, people: 2 }]
@@ -139,7 +139,7 @@ class Studies(unittest.TestCase):
         text = pathlib.Path(folder, "session.yaml").read_text()
         for line in ["study: Two days", "version: 1", "group: gradual", "number: 2", "session: day1", "condition: heavy"]:
             self.assertIn(line, text)
-        self.assertRegex(self.participant("list").stdout, r"S03 +gradual +next: familiar\n")  # simulated ones do not count
+        self.assertRegex(self.participant("list").stdout, r"S03 +gradual +next: familiar\n")  # simulated sessions are ignored
 
     @soak.alone
     def test_every_participant_and_session_has_a_seed_of_its_own(self):
@@ -236,7 +236,7 @@ class Studies(unittest.TestCase):
             for session, condition in zip(["familiar", "day1", "day2"], ["", *orders[row["number"]]]):
                 self.assertIn((row["id"], session, condition), sessions)
         self.assertEqual(len(sessions), 12)
-        # an interrupted rehearsal goes on: the session that is missing is made again, equal to the byte
+        # an interrupted rehearsal can be continued: the missing session is made again, identical to the byte
         lost = self.folder + "/rehearsal/sessions/sim-002/day2/rehearsed"
         was = pathlib.Path(lost, "trials.csv").read_bytes()
         shutil.rmtree(lost)
@@ -284,7 +284,7 @@ class Studies(unittest.TestCase):
         self.refused(dihaptic("export", self.study, "--psych-ds", tables, *rehearsed), "exists")
         self.refused(dihaptic("export", self.study, "--psych-ds", self.folder + "/none"), "without data")
         self.refused(dihaptic("export", self.study, "--csv", "grip_force"), "curves of one session")
-        # sessions of a participant are added as they come
+        # only a participant's new sessions are added
         result = dihaptic("rehearse", self.study, "--jobs", "2", "--keep-recordings", "--out", self.folder + "/kept")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         for session, added in [(None, 4), (None, 0)]:
@@ -353,7 +353,7 @@ class Studies(unittest.TestCase):
             with open(f"{self.folder}/rehearsal/tables/{name}.csv") as file:
                 tables[name] = sorted((int(r["trial_num"]), int(r["attempt"])) for r in csv.DictReader(file))
         self.assertEqual(tables["lifts"], tables["trials"])
-        # an attempt that was interrupted, and made again, is that of the second part
+        # an attempt that was interrupted and repeated is taken from the second part
         grips = []
         for lifts in [f"{self.folder}/rehearsal/tables/lifts.csv", parts[1] + "/lifts.csv"]:
             with open(lifts) as file:
@@ -387,7 +387,7 @@ class Studies(unittest.TestCase):
             if row["trial_num"] == "1":
                 first[row["study_session"]].append(float(row["compensation"]))
         self.assertEqual([len(values) for values in first.values()], [4, 4])
-        # without a memory both begin at 0, within the noise of a movement (about 4 degrees)
+        # without memory, both days would begin at 0, within the noise of a movement (about 4 degrees)
         self.assertLess(abs(sum(first["day1"]) / 4), 6)
         self.assertGreater(sum(first["day2"]) / 4, 10)
 
@@ -465,7 +465,7 @@ class Studies(unittest.TestCase):
     def test_nothing_is_done_that_the_log_cannot_tell(self):
         self.add("S01")
         log = pathlib.Path(self.folder, "log.csv")
-        log.write_bytes(log.read_bytes().rstrip(b"\n"))  # an editor may leave the last line so
+        log.write_bytes(log.read_bytes().rstrip(b"\n"))  # as an editor may leave the last line
         self.add("S02")
         self.assertEqual(self.log(), [("version", "S01"), ("add", "S01"), ("add", "S02")])
         log.unlink()

@@ -12,7 +12,7 @@ import unittest
 
 from window import Participants
 
-PIXELS = 3.2  # a millimetre, in the scenes' first cameras
+PIXELS = 3.2  # per millimetre, with the scenes' first cameras
 
 
 class ByMouse(Participants):

@@ -17,7 +17,7 @@ class Sessions(Window):
         time.sleep(1.5)
         self.screenshot("script")
         with self.ended("complete") as file:
-            # ticks that a busy machine misses are left out, and the script ends at its time all the same
+            # ticks that a busy machine misses are left out, but the script still ends on time
             series = file["acquisition/solver"]
             ticks = len(series["data"])
             self.assertGreater(ticks, 1500 / SLOWNESS)
@@ -40,7 +40,7 @@ class Trials(Participants):
         print(f"a picture takes {a_picture * 1e3:.0f} ms, and a change {statistics.median(seen) * 1e3:.0f} ms to be seen")
         self.assertGreater(len(seen), 0.3 * len(events))
         self.assertGreater(min(seen), 0)
-        # the picture that is being drawn, and the next; how long each takes is the machine's matter
+        # the picture being drawn, and the next one; how long each takes depends on the machine
         self.assertLess(statistics.median(seen), 3 * a_picture)
 
     def test_run_from_start_to_end_by_the_simulated_hand(self):

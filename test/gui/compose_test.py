@@ -27,12 +27,12 @@ class Compose(Window):
         self.key("ctrl+s")
         self.wait("the file", lambda: ", typed\n" in self.text())
         self.assertEqual(self.drafts(), [])
-        self.key("ctrl+z")  # undo goes on behind what was saved
+        self.key("ctrl+z")  # undo goes back beyond the saved state
         self.wait("the title as it was", lambda: title() == before or ", typed" not in title())
         self.assertIn(", typed\n", self.text())
         self.key("ctrl+q")
         question = self.wait("the question", lambda: self.xdotool("search", "--onlyvisible", "--name", "^Save"))
-        self.xdotool("windowfocus", question.split()[-1])  # there is no window manager that would
+        self.xdotool("windowfocus", question.split()[-1])  # there is no window manager to do so
         time.sleep(0.5)
         self.screenshot("compose-question")
         self.key("Tab", "space")  # discard
@@ -45,7 +45,7 @@ class Compose(Window):
         self.open()
         self.key("ctrl+e", "ctrl+End", "Return")
         self.type("bodis: []")
-        self.key("F5")  # before the pause after which the text is checked
+        self.key("F5")  # before the text is checked, which happens only after a pause
         time.sleep(2)
         self.key("F5")
         time.sleep(0.5)
@@ -87,7 +87,7 @@ class Compose(Window):
     def test_offers_words_and_shows_where_what_is_clicked_was_written(self):
         self.open()
         self.key("ctrl+e", "ctrl+Home")
-        # behind the line that names the block
+        # goes to the end of the line that names the block
         lines = SCENE.splitlines()
         line = next(i for i, text in enumerate(lines) if "name: block" in text)
         self.key(*["Down"] * line, "End", "Return")
@@ -171,7 +171,7 @@ class Compose(Window):
         self.drag(held, [815, 470])
         x, y, z = self.saved("the drag", lambda p: p[0] > 20)
         self.assertEqual(z, 20)
-        self.key("Right", "shift+Down")  # the scene has the keyboard since
+        self.key("Right", "shift+Down")  # since the drag, the scene has the keyboard
         self.assertEqual(self.saved("steps", lambda p: p[1] < y - 5), [round(x + 1, 1), round(y - 10, 1), 20])
         self.key("ctrl+z", "ctrl+z")
         self.saved("what was before the steps", lambda p: p == [x, y, z])

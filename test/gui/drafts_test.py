@@ -73,7 +73,7 @@ class Drafts(Window):
         before = kept.read_text()
         self.open()
         self.wait("the offer", lambda: self.dialogs("^Unsaved text$"))
-        self.type("# other ")  # at the window behind it, which takes nothing
+        self.type("# other ")  # this goes to the window behind the dialog, which accepts no input
         time.sleep(1)
         self.assertEqual(kept.read_text(), before)
         self.crash()
@@ -119,7 +119,7 @@ class Drafts(Window):
         self.wait("the file", lambda: os.path.exists(self.scene) and self.scene_text() == "# mine " + SCENE)
         os.remove(self.scene)
         time.sleep(1)
-        pathlib.Path(self.scene).write_text(SCENE)  # what a checkout does: nobody here has changed it since
+        pathlib.Path(self.scene).write_text(SCENE)  # as a checkout does; the user has not changed the text since
         time.sleep(1.5)
         self.key("ctrl+Home")
         self.type("# again ")

@@ -39,7 +39,7 @@ class Files(Window):
 
     @soak.alone
     def test_that_changed_a_moment_ago_are_shown_as_they_run(self):
-        """Of an experiment's scene nobody watches whether it changes."""
+        """An experiment's scene is not watched for changes."""
         file = self.folder.name + "/experiment.yaml"
         pathlib.Path(file).write_text("scene: block.yaml\n")
         super().open(file)
@@ -65,7 +65,7 @@ class Files(Window):
         self.key("F7")
         with self.ended("complete"):
             pass
-        # the window hears of it after the files are whole
+        # the window is notified only when the files are complete
         self.wait("the dialog", lambda: self.key("ctrl+o")
                   or self.xdotool("search", "--onlyvisible", "--name", "^Open a scene"))
 

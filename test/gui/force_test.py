@@ -27,7 +27,7 @@ class Force(Window):
     def open(self, more=""):
         library = pathlib.Path(PROGRAM).resolve().parent / "src/devices/libfake_hd.so"
         self.allow(library)
-        # a busy machine is another test's
+        # so that a busy machine does not end the session
         title = "title: Two fakes\nsettings: {safety: {max_pause_ms: 1000}}\n"
         pathlib.Path(self.folder.name + "/rig.yaml").write_text(title + more + "devices:\n" + "".join(
             f"  - {{finger: {finger}, position_mm: [{x}, 0, 0], backend: openhaptics, "
@@ -71,7 +71,7 @@ class Force(Window):
 
     def test_goes_at_the_first_escape_whatever_has_the_keyboard(self):
         self.open()
-        self.assertEqual(self.felt.opened(), [0, 0])  # what is only looked at is left alone
+        self.assertEqual(self.felt.opened(), [0, 0])  # viewing a rig does not open its devices
         self.key("alt+v", "s")
         participant = self.wait("the participant's window",
                             lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic: participant$")).strip()
@@ -93,7 +93,7 @@ class Force(Window):
                 self.key(*keys)
                 self.screenshot("escape-" + place.replace(" ", "-"))
                 print(f"Escape, {place}: {self.off_after(lambda: self.xdotool('key', 'Escape'), 0.3) * 1e3:.1f} ms")
-                self.key("Escape", "Escape")  # what was open is closed by now
+                self.key("Escape", "Escape")  # closes whatever was open
                 self.xdotool("windowfocus", self.name)
                 self.key("F6")
         with self.subTest("the participant's window"):
@@ -106,7 +106,7 @@ class Force(Window):
         self.xdotool("windowfocus", self.name)
         self.off_after(lambda: self.key("F7"), 2)
         with self.ended("complete") as file:
-            # a busy machine's window may fall silent, and then force is off before Escape is heard
+            # on a busy machine the window may stop responding, and then force is off before Escape is handled
             pauses = self.status(file, PAUSED) | self.status(file, ABANDONED)
             self.assertGreaterEqual(pauses.sum(), len(places) + 1)
         self.quit()
@@ -155,7 +155,7 @@ class Force(Window):
                 self.open()
                 self.start()
                 self.pushed()
-                # a second when it is stopped: the rig of these tests bears such a silence
+                # a stopped window may take a second: these tests' rig allows such a pause
                 took = self.off_after(lambda: self.window.send_signal(getattr(signal, "SIG" + name)), 1.2)
                 print(f"SIG{name}: {took * 1e3:.1f} ms")
                 self.window.kill()

@@ -53,7 +53,7 @@ class Head(Window):
         return self.still() if rests else None
 
     def still(self):
-        """What the participant's window shows, once that changes no more."""
+        """What the participant's window shows, once it no longer changes."""
         last = None
         for _ in range(40):
             time.sleep(1)
@@ -91,7 +91,7 @@ class Head(Window):
         there, here = self.resting(LEANS), self.resting(RESTS)
         self.assertGreater(np.abs(there.astype(int) - here).mean(), 2)
         tracked = f"{{ position_mm: {list(RESTS)}, tracked: yes }}"
-        np.testing.assert_array_equal(self.before_a_screen(tracked, HEAD), here)  # no stream yet
+        np.testing.assert_array_equal(self.before_a_screen(tracked, HEAD), here)  # as there is no stream yet
         self.send(*LEANS)
         self.wait("the stream", lambda: (self.pixels(0, 0, 640, 480) == there).all())
         self.screenshot("head")

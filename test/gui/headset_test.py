@@ -48,7 +48,7 @@ class Headset(Participants):
         self.key("alt+h", "Down")  # the script moves the hand
 
     def keep(self, name):
-        """A picture that one can look at."""
+        """A picture that can be looked at."""
         pathlib.Path(SCREENSHOTS).mkdir(parents=True, exist_ok=True)
         subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-i", self.pictures / f"{name}.ppm",
                         f"{SCREENSHOTS}/headset-{name}.png"], check=True)
@@ -72,18 +72,18 @@ class Headset(Participants):
         self.assertGreater(len(ticks), 5)
         self.assertEqual(sorted({row["tick"] for row in heads}), ticks)
         for row in heads:
-            # the runtime's head, in its space 0.35 m above and 0.4 m behind the origin, in the world
+            # the runtime's head in world axes; in the runtime's space, it is 0.35 m above and 0.4 m behind the origin
             for value, exact in zip([row["x_m"], row["y_m"], row["z_m"]], [0.01, 0.02 - 0.4, 0.03 + 0.35]):
                 self.assertAlmostEqual(value, exact, places=5)
-            # it looks down by 33.7 degrees; upright, the space is turned by 90
+            # the head looks down by 33.7 degrees; upright, it would be turned by 90
             self.assertAlmostEqual(row["qw"], math.cos(math.radians(90 - 33.72) / 2), places=3)
             self.assertAlmostEqual(row["qx"], math.sin(math.radians(90 - 33.72) / 2), places=3)
             self.assertEqual(row["tracked"], 1)
-            # light comes after its tick, by what it takes to draw
+            # a picture is shown later than its tick, by the time that drawing takes
             self.assertGreater(row["shown_s"], row["tick"] * 1e-3)
         self.quit()
         said = self.messages.read_text().splitlines() if self.messages.exists() else []
-        # newer layers also say that they begin and end
+        # newer validation layers also report their start and end
         self.assertEqual([line for line in said if "VALID_DEBUG" not in line], [])
 
     def test_that_goes_away_pauses_the_session(self):

@@ -14,7 +14,7 @@ MENUS = "dihaptic::gui::OperatorWindow"
 
 
 def hash_of(source):
-    """ELF's, of what a text is looked up by."""
+    """ELF's hash, of the words by which a text is looked up."""
     value = 0
     for byte in source.encode():
         value = (value << 4) + byte

@@ -14,7 +14,7 @@ from window import Participants, Window
 
 import soak
 
-#: All that a trial takes from draws, factors, variables and tables.
+#: An experiment whose trials use draws, factors, variables and tables.
 EXPERIMENT = """title: Waits by chance
 scene: {scenes}/block-on-table.yaml
 task:
@@ -36,7 +36,7 @@ task:
   blocks:
     - {{ name: waits, kind: baseline, repeats: 2 }}
 """
-#: Of trials.csv, what no clock decides.
+#: Columns of trials.csv that depend on no clock.
 DECIDED = ("trial_num", "condition", "mass_g", "wait_s", "weight", "score", "outcome")
 
 

@@ -19,7 +19,7 @@ import soak
 TIME = float(os.environ.get("DIHAPTIC_MONKEY", soak.of(20, 600)))
 SEED = int(os.environ.get("DIHAPTIC_SEED", 1))
 
-# Neither keys that quit the program, nor keys that remove files in a dialog for choosing one.
+# Keys, without those that quit the program or remove files in a dialog for choosing a file.
 KEYS = """F4 F5 F5 F5 F6 F6 F7 F8 F9 F10 Escape Return Return Tab Tab shift+Tab Up Down Left Right Prior Next Home End BackSpace
 space h v y 1 2 a s x comma minus period ctrl+e ctrl+e ctrl+z ctrl+shift+z ctrl+s ctrl+r ctrl+period ctrl+a ctrl+c ctrl+v
 ctrl+v ctrl+x ctrl+space shift+Insert ctrl+shift+o ctrl+Home ctrl+End ctrl+Up ctrl+shift+Left ctrl+plus alt+Left alt+Prior
@@ -47,7 +47,7 @@ class Monkey(Window):
         pathlib.Path(self.experiment).write_text("scene: block.yaml\nrig: rig.yaml\n")
 
     def windows(self):
-        """All that are open, the newest last."""
+        """All open windows, the newest last."""
         return self.xdotool("search", "--onlyvisible", "--pid", str(self.window.pid)).split()
 
     def choose_no_file(self):
@@ -68,7 +68,7 @@ class Monkey(Window):
             return ["type", "--delay", "2", "--", "".join(r.choices("abz019 :-[]{},#'\"", k=r.randint(1, 12)))]
         if kind == "click":
             return ["mousemove", *self.place(), "click", "--repeat", str(r.randint(1, 2)), str(r.choice([1, 1, 1, 2, 3]))]
-        if kind == "drag":  # of a text that is selected too, which drops it
+        if kind == "drag":  # may also drag and drop a selected text
             held = str(r.choice([1, 1, 3]))
             return ["mousemove", *self.place(), "mousedown", held, "mousemove", *self.place(), "mousemove", *self.place(),
                     "mouseup", held]
@@ -92,7 +92,7 @@ class Monkey(Window):
             scene.write_text({"same": text, "other": text.replace("size_mm: [40", "size_mm: [50"), "garbage": text[:r.randrange(len(text))]}[what])
 
     def look(self, done):
-        """Whether it is still there; opens another if the monkey has quit."""
+        """Whether the window still exists; opens another if the monkey has quit."""
         code = self.window.poll()
         if code is None:
             return

@@ -59,8 +59,8 @@ class Mouse(Window):
         self.xdotool("type", "2000")
         self.key("Return")
         self.recorded("the stiffness", lambda file: self.series(file, "stiffness")[-1] == 2000)
-        self.key("alt+x", "End")  # a point, once the block is let go: not in this session
-        self.key("alt+c", "End")  # not through the dual spring, which shakes when it is so stiff
+        self.key("alt+x", "End")  # the point takes effect only when the block is let go, so not in this session
+        self.key("alt+c", "End")  # directly to the last, since the dual spring shakes at this stiffness
         self.recorded("the coupling", lambda file: self.series(file, "coupling")[-1] == 2)
         for solver in (2, 1, 0):  # through all
             self.key("alt+l", "Up")
@@ -119,7 +119,7 @@ class Mouse(Window):
     def test_squeezes_by_a_key_and_lets_go(self):
         self.open()
         self.start()
-        distance = lambda file: np.linalg.norm(  # of the fingertips
+        distance = lambda file: np.linalg.norm(  # between the fingertips
             self.series(file, "thumb_handle_position")[-1] - self.series(file, "index_handle_position")[-1])
         before = []
         self.recorded("the hand", lambda file: before.append(distance(file)) or True)

@@ -39,13 +39,13 @@ class Patch(Participants):
         self.screenshot("patch")
         with self.ended("complete"):
             pass
-        time.sleep(1)  # then it is black again
+        time.sleep(1)  # until it is black again
         grey, _ = grab.communicate(b"q")
         seen = [sum(grey[i:i + 64]) / 64 for i in range(0, len(grey) - 63, 64)]
         white = [value > 250 for value in seen]
         begins = [i for i in range(1, len(white)) if white[i] and not white[i - 1]]
         self.assertEqual(len(begins), 4, seen)
-        # the pictures that shown.csv names say the same: when the first of each state came to the screen
+        # shown.csv agrees on when the first picture of each state came to the screen
         with open(self.recording() + "events.csv") as file:
             phases = [(float(row["time_s"]), row["detail"]) for row in csv.DictReader(file) if row["event"] == "phase"]
         with open(self.recording() + "shown.csv") as file:
@@ -56,7 +56,7 @@ class Patch(Participants):
         on_screen = [i / RATE for i in range(1, len(white)) if white[i] != white[i - 1]][:len(changes)]
         apart = [abs((after - before) - (told_after - told_before)) for (before, after), (told_before, told_after)
                  in zip(zip(on_screen, on_screen[1:]), zip(changes, changes[1:]))]
-        # on a busy machine, pictures and grabs of them come late one by one: a single change by as much as a picture lasts
+        # on a busy machine, single pictures and grabs are late: one change may be off by the duration of a picture
         longest = max(after - before for (_, before), (_, after) in zip(pictures, pictures[1:]))
         self.assertLess(statistics.median(apart), 0.15, apart)
         self.assertLess(max(apart), 0.15 + longest, apart)

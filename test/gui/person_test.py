@@ -13,7 +13,7 @@ class Person(Participants):
         """A simulated person, whose time goes by at this pace."""
         self.key("alt+h")
         self.xdotool("type", "--delay", "50", "a s")
-        time.sleep(1.5)  # the file is read again; the next letters are another word
+        time.sleep(1.5)  # meanwhile the file is read again; letters typed after this start a new word
         self.key("Tab")
         self.xdotool("type", "--delay", "50", pace)
         time.sleep(0.5)

@@ -28,7 +28,7 @@ class Player(Window):
         time.sleep(0.5)
         self.key("Return")
         self.wait("a picture", lambda: len(self.saved_at(folder)) > before)
-        self.xdotool("windowfocus", self.name)  # there is no window manager that would
+        self.xdotool("windowfocus", self.name)  # there is no window manager to do so
 
     def test_shows_any_moment_of_a_recording(self):
         folder = self.record()
@@ -121,7 +121,7 @@ class Player(Window):
                      "windowsize", second, "700", "900", "windowfocus", first)
         for name in (first, second):
             self.assertIn("Geometry: 700x900", self.xdotool("getwindowgeometry", name))
-        steps = int((starts[0][2] + 0.5) * 10)  # of 100 ticks, into the third trial
+        steps = int((starts[0][2] + 0.5) * 10)  # steps of 100 ticks, into the third trial
         self.xdotool("key", "--delay", "30", *["shift+Right"] * steps)
         time.sleep(1)
         self.screenshot("two-sessions")

@@ -76,7 +76,7 @@ class Rigs(Window):
         self.key("Return")  # reset
         self.key("Return")  # link
         time.sleep(1)
-        self.key("Return")  # carried too little: nobody moves the endpoints
+        self.key("Return")  # refused, since nobody has moved the endpoints
         time.sleep(1)
         self.screenshot("guide")
         self.key("Escape")

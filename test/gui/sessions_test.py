@@ -28,7 +28,7 @@ class Sessions(Window):
         self.screenshot("force-off")
         self.key("F6")
         time.sleep(0.5)
-        self.key("Escape", "Escape", "F7")  # the second does nothing
+        self.key("Escape", "Escape", "F7")  # the second Escape does nothing
         with self.ended("complete") as file:
             self.assertEqual(self.status(file, PAUSED).sum(), 2)
             self.assertEqual(self.status(file, RESUMED).sum(), 1)

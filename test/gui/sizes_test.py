@@ -17,14 +17,14 @@ class Small(Participants):
         self.environment["QT_SCALE_FACTOR"] = self.scale
 
     def look(self, name):
-        """A picture of the display, which every window of the program has room on."""
+        """A picture of the display, on which every window of the program must fit."""
         time.sleep(0.7)
         self.screenshot(f"{name}-{self.size}")
         width, height = map(int, self.size.split("x"))
         windows = self.xdotool("search", "--onlyvisible", "--pid", str(self.window.pid)).split()
         self.assertTrue(windows)
         for window in windows:
-            geometry = self.xdotool("getwindowgeometry", "--shell", window)  # empty: it has closed meanwhile
+            geometry = self.xdotool("getwindowgeometry", "--shell", window)  # empty if the window has closed meanwhile
             place = dict(line.split("=") for line in geometry.split())
             if place:
                 self.assertLessEqual(int(place["X"]) + int(place["WIDTH"]), width, name)

@@ -34,11 +34,11 @@ class StartPage(Window):
         self.wait("pictures", lambda: len(self.pictures()) >= 4)
         time.sleep(1)
         self.screenshot("start-page")
-        self.key("Return")  # the first one
+        self.key("Return")  # opens the first scene
         self.wait("a scene", lambda: self.title().endswith(" - Dihaptic"))
         self.settle()
         self.screenshot("start-chosen")
-        # back, and to what was open
+        # back to the start page, and then to the open scene
         self.key("alt+f", "t")
         time.sleep(1)
         self.key("alt+n")

@@ -36,7 +36,7 @@ class Trials(Participants):
         self.screenshot("key")
         self.key("h", "g")
         time.sleep(0.5)
-        self.key("g")  # while the feedback is shown: no answer
+        self.key("g")  # not an answer, since the feedback is shown
         time.sleep(1.5)
         self.key("g")
         with self.ended("complete"):
@@ -85,7 +85,7 @@ class Trials(Participants):
         self.screenshot("form-empty")
         self.xdotool("mousemove", "520", "300")
         time.sleep(0.5)
-        self.xdotool("click", "1")  # some item in the middle
+        self.xdotool("click", "1")  # the middle of some item
         for answer in ("10", "20", "30", "40", "50"):
             time.sleep(0.2)
             self.key(*answer, "Return")
@@ -99,7 +99,7 @@ class Trials(Participants):
         given = [float(row["tlx_" + item])
                  for item in ("mental", "physical", "temporal", "performance", "effort", "frustration")]
         clicked = [answer for answer in given if answer not in (10, 20, 30, 40, 50)]
-        self.assertEqual(len(clicked), 1, given)  # by mouse, and not asked for again
+        self.assertEqual(len(clicked), 1, given)  # answered with the mouse, and not asked again
         self.assertTrue(20 < clicked[0] < 80, given)
         self.assertEqual([a for a in given if a != clicked[0]], [10, 20, 30, 40, 50])
         self.assertAlmostEqual(float(row["tlx"]), sum(given) / 6, places=6)

@@ -33,7 +33,7 @@ SCENE = pathlib.Path("scenes/block-on-table.yaml").read_text()
 
 
 def end_display(display):
-    """One that is stopped, or was asked just before it began to wait, does not hear that it is to end."""
+    """A process that is stopped, or was asked just before it began to wait, does not notice that it is to end."""
     display.terminate()
     try:
         display.wait(5)
@@ -42,7 +42,7 @@ def end_display(display):
         display.wait()
 
 
-#: The thread sanitizer of LLVM 14 fails a check of its own (tsan_rtl.cpp) in a program in which Qt starts another one.
+#: The thread sanitizer of LLVM 14 fails a check of its own (tsan_rtl.cpp) when Qt starts another program.
 starts_programs = unittest.skipIf("TSAN_OPTIONS" in os.environ, "the thread sanitizer cannot follow Qt into a new program")
 
 
@@ -92,7 +92,7 @@ class Window(unittest.TestCase):
     def open(self, *files):
         self.log = open(self.folder.name + "/log", "w+")
         self.addCleanup(self.log.close)
-        # a test that is run by nohup too
+        # so that SIGHUP ends the window even if the test is run under nohup
         self.window = subprocess.Popen([PROGRAM, "gui", "--out", self.out, *(files or [self.scene])], env=self.environment,
                                        stdout=self.log, stderr=self.log,
                                        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))
@@ -100,7 +100,7 @@ class Window(unittest.TestCase):
         self.addCleanup(self.window.kill)
         name = self.wait("the window", lambda: self.xdotool("search", "--onlyvisible", "--name", " - Dihaptic$"))
         self.name = name.split()[-1]
-        # there is no window manager that would
+        # there is no window manager to do so
         self.xdotool("windowmove", self.name, "0", "0", "windowsize", self.name, *self.size.split("x"),
                      "windowfocus", self.name, "mousemove", "450", "450")
         self.settle()
@@ -235,7 +235,7 @@ class Window(unittest.TestCase):
             if made.returncode != 0:
                 return False
             with h5py.File(copy + "/session.nwb", "r") as file:
-                return "status" in file["acquisition"] and condition(file)  # at first it has no ticks
+                return "status" in file["acquisition"] and condition(file)  # at first the file has no ticks
 
         self.wait(what, holds, seconds)
 

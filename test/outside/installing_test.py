@@ -17,7 +17,7 @@ import needs
 
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve().parent
 SOURCE = pathlib.Path.cwd()
-#: Inputs of tests that have line ends of their own.
+#: Test inputs whose line ends must stay as they are.
 OWN_LINE_ENDS = re.compile(r"src/[^/]+/fuzz/[^/]+_corpus/")
 
 
@@ -36,7 +36,7 @@ class Installing(unittest.TestCase):
     def test_a_clone_by_git_for_windows_has_the_line_ends_of_linux(self):
         if not is_clone():
             needs.skip("a folder that is not a clone cannot be cloned")
-        # what git does there without being asked
+        # the defaults of Git for Windows
         run("git", "-c", "core.autocrlf=true", "-c", "core.eol=crlf", "clone", "--quiet", SOURCE, self.here / "clone")
         names = run("git", "ls-files", "-z", cwd=self.here / "clone").split("\0")[:-1]
         self.assertGreater(len(names), 1000)
@@ -55,7 +55,7 @@ class Installing(unittest.TestCase):
         source.mkdir()
         archive = subprocess.run(["git", "archive", "HEAD"], check=True, capture_output=True).stdout
         subprocess.run(["tar", "x", "-C", source], input=archive, check=True)
-        # an Anaconda with libraries of its own, and a pkg-config that knows no other
+        # an Anaconda with its own libraries, and with a pkg-config that finds only these
         conda = self.here / "conda"
         for name in ("fmt", "yaml-cpp"):
             config = conda / f"lib/cmake/{name}/{name}-config.cmake"
@@ -91,7 +91,7 @@ class Installing(unittest.TestCase):
         parts = self.of_dev("parts", self.here)
         self.assertEqual(parts.stdout, "meshes;python;benches;tests;")
         self.assertEqual(parts.stderr, "not built: window, because qt6-svg-dev is not installed\n")
-        # the demo does not ask for it
+        # the demo does not need the window, so it does not mention it
         self.assertEqual(self.of_dev("targets=dihaptic parts", self.here).stderr, "")
 
     def test_a_part_that_does_not_exist_is_refused(self):

@@ -14,7 +14,7 @@ from locales import COMMAS, with_language
 from program import PROGRAM, patient
 
 PYTHON = os.path.join(os.path.dirname(os.path.abspath(PROGRAM)), "python")
-#: Meshes of each format, textures, draws, a movement: all that is read as text.
+#: Reads meshes of each format, textures, draws and a movement: everything that contains numbers as text.
 SCRIPT = """
 import locale, pathlib, sys
 sys.path.insert(0, sys.argv[1])

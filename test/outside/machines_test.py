@@ -22,7 +22,7 @@ NOBODY = 48211
 
 def dihaptic(*arguments, environment=None, **options):
     """The program with nothing in its environment but what is given: no HOME, no language, no screen."""
-    # the sanitizers' settings and the table of slowness stay
+    # keeps the sanitizers' settings and the table of slowness
     kept = {k: v for k, v in os.environ.items() if k.endswith("_OPTIONS")}
     return subprocess.run([PROGRAM, *arguments], env=kept | {"PATH": "/usr/bin:/bin"} | (environment or {}), capture_output=True,
                           text=True, timeout=patient(300), **options)
@@ -81,7 +81,7 @@ class Machines(unittest.TestCase):
             self.assertEqual(dihaptic("replay", session).returncode, 0)
 
     def test_a_disk_that_takes_no_larger_file_keeps_what_was_recorded_and_says_so(self):
-        # as FAT from 4 GB on, whose errno is the same
+        # like FAT, which refuses files from 4 GB on with the same errno
         result = dihaptic("run", self.scene, "--out", self.out, preexec_fn=with_largest_file(20_000))
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertIn("raw.log: error: cannot be written: File too large", result.stderr)
@@ -93,7 +93,7 @@ class Machines(unittest.TestCase):
         result = dihaptic("gui", self.scene)
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertIn("there is no screen", result.stderr)
-        # with a screen that is not there
+        # with a screen that does not exist
         result = dihaptic("picture", self.scene, "--out", self.out + "/picture.png", environment={"DISPLAY": ":77"})
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertGreater(os.path.getsize(self.out + "/picture.png"), 10_000)

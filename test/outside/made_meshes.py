@@ -122,7 +122,7 @@ def touching(draw):
     for axis in draw.sample(range(3), draw.choice([1, 2])):
         begin, end = shrunk(draw, low, high)
         if draw.random() < 0.3:
-            begin, end = list(low), list(high)  # face on face
+            begin, end = list(low), list(high)  # the full face of the box
         begin[axis], end[axis] = high[axis], high[axis] + draw.uniform(2, 20)
         faces += box(begin, end)
         volume += size(begin, end)
@@ -240,7 +240,7 @@ def mesh(number):
     faces, volume = kind(draw)
     if number // len(KINDS) % 3 == 2:
         faces = rotated(draw, faces)
-    convex_faces = kind not in (steps, star, plus, bow_tie)  # a fan covers the others wrongly
+    convex_faces = kind not in (steps, star, plus, bow_tie)  # a fan of triangles would not cover the others' faces
     if convex_faces and draw.random() < 0.5:
         return kind.__name__, "stl", stl(triangles(faces), draw if draw.random() < 0.4 else None), volume
     return kind.__name__, "obj", obj(faces), volume

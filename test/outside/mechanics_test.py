@@ -14,7 +14,7 @@ import numpy as np
 
 sys.path.append("test/cli")
 from program import PROGRAM, dihaptic, session_of
-import soak  # program.py says where it is
+import soak  # program.py adds its folder to the path
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(PROGRAM)), "python"))
 import dihaptic as dh  # noqa: E402
@@ -150,7 +150,7 @@ class RoundShapes(unittest.TestCase):
                 w = world([dh.Part(name=name, mass_g=1, position_mm=[x, 0, 500], **shape) for name, x in (("a", -90), ("b", 90))],
                           gravity=(0, 0, 0))
                 for name, sign in (("a", 1), ("b", -1)):
-                    # of cones, one's base meets the other's tip: off its centre, a hit makes each spin thousands of times a second
+                    # one cone's base meets the other's tip; if it met it off-centre, each would spin thousands of times a second
                     turned = about([0, 1, 0], math.pi / 2) if shape["shape"] == "cone" else UPRIGHT
                     w.bodies[name].place((-0.09 * sign, 0, 0.5), turned, (50 * sign, 0, 0))
                 w.step(20)
@@ -196,7 +196,7 @@ class RoundShapes(unittest.TestCase):
 
     @soak.alone
     def test_a_tippe_top_turns_over_and_keeps_jelletts_invariant(self):
-        # a ball with a smaller one inside, which counts twice
+        # a ball with a smaller one inside, of twice the density
         radius, inner, off, spin = 0.02, 0.014, 0.005, 220
         share = inner**3 / (radius**3 + inner**3)
         centre = off * share / radius
@@ -309,7 +309,7 @@ class Impacts(unittest.TestCase):
 
 class Friction(unittest.TestCase):
     def test_stops_a_block_after_the_same_way_in_every_direction(self):
-        wanted = 1 / (2 * 0.5 * G) - 0.5e-3  # less half of what it goes in a tick
+        wanted = 1 / (2 * 0.5 * G) - 0.5e-3  # less half of the distance travelled in a tick
         for solver in SOLVERS:
             for direction in (0, 15, 45, 70):
                 for yaw in (0, 0.5):
@@ -424,7 +424,7 @@ task:
                 result = dihaptic("run", str(file), "--out", name, "--solver", solver)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 session = dh.load(session_of(name))
-                side = -1 if share == 0.25 else 1  # after half a turn
+                side = -1 if share == 0.25 else 1  # the plate ends after half a turn
                 for body, at in (("block", (0.05, 0, 0.02)), ("above", (0.06, 0.01, 0.06))):
                     self.assertLess(abs(session[body + ".position"][-2] - np.multiply(at, (side, side, 1))).max(), 1e-5)
 

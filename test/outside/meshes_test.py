@@ -18,10 +18,10 @@ from scipy.spatial import ConvexHull
 sys.path += ["test/cli", "test/outside"]
 import made_meshes as made
 from program import PROGRAM, patient
-import soak  # program.py says where it is
+import soak  # program.py adds its folder to the path
 
 PROGRAM = os.path.abspath(PROGRAM)
-COUNT = soak.of(14, 300)  # of made meshes
+COUNT = soak.of(14, 300)  # number of made meshes
 CUBE = made.box((-20, -20, -20), (20, 20, 20))
 
 
@@ -49,7 +49,7 @@ class Meshes(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def check(self, name, content, locale="C", **more):
-        """Returns (said, volume of the pieces or None if the mesh is refused)."""
+        """Returns (messages, volume of the pieces or None if the mesh is refused)."""
         (self.folder / name).write_bytes(content)
         (self.folder / "scene.yaml").write_text(scene(name, **more))
         cache = tempfile.mkdtemp(dir=self.folder)

@@ -122,7 +122,7 @@ class Names(unittest.TestCase):
             for word in words:
                 self.assertEqual(trials[word][:].tolist(), [float(row[word])] if value else trials[word][:].tolist())
             self.assertEqual(trials["id"][:].tolist(), [0])
-        # a page takes seconds; variables are in no figure that others are not in
+        # a page takes seconds, and only factors and custom measures have figures of their own
         page = () if kind in ("factors", "custom_measures") else ("--tables",)
         for command in (("report", *page), ("export", "--bids", str(out / "bids"))):
             done = dihaptic(command[0], str(session), *command[1:])

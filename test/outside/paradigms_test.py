@@ -222,11 +222,11 @@ task:
 """
         whole = self.run_task(task.replace("DURING", "lead in, reach").replace("CONTINUES", ""), person=ThroughVia())
         self.compare_index(whole)
-        # only from the via point on: the hand is moving then
+        # only the part from the via point on, where the hand is already moving
         moving = self.run_task(task.replace("DURING", "reach").replace("CONTINUES", "continues: yes,"), person=ThroughVia())
         self.compare_index(moving)
         self.assertTrue(moving.trials.reaction_time_s.isna().all())
-        # in the states of the way home no channel acts, and the movement that is found there says so
+        # no channel acts in the states of the way home, and not_measured says so for the movement found there
         home = self.run_task(task.replace("DURING", "back, lead in, reach").replace("CONTINUES", ""))
         channels = home.trials[home.trials.kind == "force_channel"]
         told = channels.not_measured.str.contains("no channel acted during the movement")

@@ -49,7 +49,7 @@ def palette(*greys):
     return ("PLTE", bytes(grey for grey in greys for _ in range(3)))
 
 
-#: Each form with the share of white that it stores.
+#: Each variant of PNG, with the brightness that it stores, as a fraction of white.
 FORMS = {
     **{f"{bits} bits, {value}": (even(bits, GREY, value), value / (2**bits - 1))
        for bits, values in ((1, (0, 1)), (2, (0, 1, 2, 3)), (4, (1, 8, 15)), (8, (64, 128, 191)),
@@ -72,7 +72,7 @@ FORMS = {
     "palette with tRNS, opaque": (even(4, PALETTE, 1, chunks=[palette(0, 128), ("tRNS", b"\0\xff")]), 128 / 255),
     "tRNS of another grey": (even(8, GREY, 64, chunks=[("tRNS", struct.pack(">H", 9))]), 64 / 255),
 }
-#: Heights that are there by half.
+#: Pictures of heights that are partly transparent.
 TRANSPARENT = {
     "grey with alpha": even(8, GREY_ALPHA, 64, 128),
     "colours with alpha": even(8, RGB_ALPHA, 64, 64, 64, 254),
@@ -141,7 +141,7 @@ hand: {{ centre_mm: [0, 0, 2000], aperture_mm: 400, script: [{{ name: wait, dura
             self.assertEqual(result.returncode, 0, result.stderr)
             pictures[name] = pixels(out.read_bytes())
         self.assertEqual(pictures["16"], pictures["8"])
-        # linear light has steps of its own
+        # linear light is quantised in different steps
         self.assertLessEqual(max(abs(a - b) for a, b in zip(pictures["linear"], pictures["8"])), 2)
 
 

@@ -82,7 +82,7 @@ class Reports(unittest.TestCase):
         self.assertIn("触觉", (self.folder / "label.svg").read_text())
         said = [str(each.message) for each in told]
         self.assertLessEqual(len(said), 1, said)
-        for words in said:  # without a font that has these letters
+        for words in said:  # there is a warning if no font has these letters
             self.assertRegex(words, "label: no font of this computer has 触觉, .*Install")
 
 

@@ -77,7 +77,7 @@ class StrangersFiles(unittest.TestCase):
         for name, trap in traps.items():
             with self.subTest(name):
                 session = self.record("--participant", "S1", out=name)
-                dh.load(session).t  # whole as it is
+                dh.load(session).t  # can be read before it is changed
                 with h5py.File(session / "session.nwb", "a") as file:
                     trap(file)
                 with self.assertRaises(dh.Error) as told:

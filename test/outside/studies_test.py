@@ -18,7 +18,7 @@ STUDY = """title: Two groups
 groups: [{ name: a, people: 3 }, { name: b, people: 3 }]
 sessions: [{ name: only, experiment: short.yaml }]
 """
-#: A rating that counts backwards, one that counts forwards, and one that nobody has time to give.
+#: A rating whose scale is reversed, one whose scale is not, and one that nobody has time to give.
 FORM = """title: Mood
 version: "7"
 items:

@@ -14,7 +14,7 @@ import numpy as np
 
 sys.path.append("test/cli")
 from program import PROGRAM, dihaptic, session_of
-import soak  # program.py says where it is
+import soak  # program.py adds its folder to the path
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(PROGRAM)), "python"))
 import dihaptic as dh  # noqa: E402
@@ -23,7 +23,7 @@ with open("movements/reach-to-grasp.csv", newline="") as shipped:
     HEAD, *ROWS = [row[:7] for row in csv.reader(shipped)]
 TIMES = [float(row[0]) for row in ROWS]
 RATE = 1e3 * (len(ROWS) - 1) / (TIMES[-1] - TIMES[0])
-#: Nexus and Qualisys have a rate, and no times: those of the shipped movement, where they were regular.
+#: Nexus and Qualisys store a rate, and no times; these are the rows of the shipped movement at regular times.
 EVEN = [[f"{1e3 * i / RATE:.6f}", *row[1:]] for i, row in enumerate(ROWS)]
 
 
@@ -157,7 +157,7 @@ class Movements(unittest.TestCase):
         start = [float(x) for x in ROWS[0][1:]]
         rows = [[row[0], *(f"{float(x) - s + (40 if i == 4 else 0):.4f}" for i, (x, s) in enumerate(zip(row[1:], start)))] for row in ROWS]
         said = self.hand(joined([HEAD, *rows]))[1]
-        self.assertEqual(said.count("missing marker"), 1)  # as in the shipped one
+        self.assertEqual(said.count("missing marker"), 1)  # as in the shipped movement
 
     def test_with_a_column_twice_or_times_that_go_back_are_told(self):
         midnight = [[f"{(float(row[0]) + 86399000) % 86400000:.3f}", *row[1:]] for row in ROWS]
@@ -203,7 +203,7 @@ class Movements(unittest.TestCase):
 
 
 GOOD = "time_s,z_mm\n0,0\n0.4,30\n"
-#: A table of a path with what is said of it; nothing: it is read.
+#: A table of a path, and the message about it; "": the table is read.
 PATHS = {
     "usual": (GOOD, ""),
     "byte order mark, CR LF": ("\ufeff" + GOOD.replace("\n", "\r\n"), ""),

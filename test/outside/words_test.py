@@ -1,4 +1,4 @@
-"""Words of the command line that are not UTF-8, for every command. docs/outside.md has the sources.
+"""Words on the command line that are not UTF-8, for every command. docs/outside.md has the sources.
 
 Usage: outside/words_test.py PROGRAM, from the project's folder.
 """
@@ -13,7 +13,7 @@ sys.path.append("test/cli")
 from program import PROGRAM, dihaptic, patient
 
 PROGRAM = os.path.abspath(PROGRAM)
-#: A name in Latin-1, half of a surrogate pair, a form too long, a byte that begins nothing.
+#: A name in Latin-1, half of a surrogate pair, an overlong encoding, a byte that cannot begin a character.
 WORDS = (b"M\xfcller", b"a\xed\xa0\x80", b"\xc0\xaf", b"\xff", b"end\xe2\x82")
 
 

@@ -25,7 +25,7 @@ WORDS = ("yes Yes YES no on Off true FALSE y Y n N null Null ~ NULL = << - ? : |
          ".na 12e03 00 08 0. 1,5 {} [] [a {a a: :a a# #a 'a \"a a' \\ --- ... %YAML").split() + [
              "", " ", " a", "a ", "a: b", "a #b", "- a", "a\nb", "a\n", "\na", "\ta", "a\tb", "2001-12-14 21:59:43.10 -5",
              "a\u2028b", "a\u2029b", "\u00a0", "🙂", "ä:", "日本", "a" * 3000, "yes: 1", "[010, 020]"]
-#: libyaml's, by which R's yaml reads too; where it is missing, Python's own.
+#: The loader of libyaml, which R's yaml also uses; where it is missing, Python's own.
 FAST = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 SIGNS = " \t\n\"'\\:,#-?|>&*!%@`[]{}~=<.0123456789eEnNyYxo_+$;aäЖ日🙂\u2028"
 

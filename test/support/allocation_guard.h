@@ -16,13 +16,13 @@ class AllocationGuard {
     /// Allocations and releases since this guard was made.
     size_t count() const;
 
-    /// Whether allocations can be counted in this build: sanitizers bring a malloc of their own.
+    /// Whether allocations can be counted in this build: sanitizers use their own malloc.
     static bool works();
 };
 
 }  // namespace dihaptic::testing
 
-/// First line of a test that needs the guard: skips it, aloud, where the guard cannot work.
+/// First line of a test that needs the guard: skips the test, with a message, where it cannot work.
 #define DIHAPTIC_NEEDS_ALLOCATION_GUARD()             \
     if (!dihaptic::testing::AllocationGuard::works()) \
     GTEST_SKIP() << "sanitizers replace malloc: allocations cannot be counted"

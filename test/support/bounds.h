@@ -1,5 +1,6 @@
-// A visitor (base/field.h) that finds the numbers of a settings struct that lack a bound: what a
-// file may say without limit surfaces as a simulation that diverges, or as a force.
+// A visitor (base/field.h) that finds the numbers of a settings struct that lack a bound: a
+// number that a file may set without limit ends in a diverging simulation, or in an excessive force
+// on the hand.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,8 +20,8 @@ namespace dihaptic::testing {
 
 class BoundsFinder {
   public:
-    int numbers = 0;                     ///< all that were seen
-    std::vector<std::string> unbounded;  ///< paths of those without two finite bounds
+    int numbers = 0;                     ///< count of numbers visited
+    std::vector<std::string> unbounded;  ///< paths of numbers without two finite bounds
 
     void operator()(std::string_view name, double&, Field field = {}) { number(name, field); }
     void operator()(std::string_view name, int&, Field field = {}) { number(name, field); }
@@ -83,7 +84,7 @@ class BoundsFinder {
     std::string path_;
 };
 
-/// Expects that each number of a settings struct, of which there are some, has two bounds.
+/// Expects that a settings struct has numbers, and that each of them has two bounds.
 template <class Struct>
 void expect_bounds(Struct value = {}) {
     BoundsFinder finder;

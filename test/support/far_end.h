@@ -1,4 +1,4 @@
-// The far end of a serial line that is none: a pseudo-terminal.
+// The far end of a simulated serial line, which is a pseudo-terminal.
 #pragma once
 
 #include <fcntl.h>
@@ -28,10 +28,10 @@ class FarEnd {
     FarEnd(const FarEnd&) = delete;
     FarEnd& operator=(const FarEnd&) = delete;
 
-    std::string port;  ///< of the near end
+    std::string port;  ///< path of the near end
 
     void send(unsigned char code) const { EXPECT_EQ(write(file_, &code, 1), 1); }
-    /// What came, once there are `count` codes; what there is after two seconds.
+    /// The received codes, once there are `count` of them, or after two seconds.
     std::vector<int> receive(size_t count) const {
         std::vector<int> out;
         for (int i = 0; i < 2000 && out.size() < count; ++i) {

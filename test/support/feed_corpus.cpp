@@ -1,5 +1,5 @@
-// Feeds each file of the folders named to a fuzzer's target: what its own main does without its
-// library.
+// Feeds each file of the given folders to a fuzzer's target, in place of the fuzzing library's
+// main().
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     std::sort(files.begin(), files.end());
     for (const std::filesystem::path& file : files) {
         std::printf("%s\n", file.c_str());
-        std::fflush(stdout);  // the last one named is the one that failed
+        std::fflush(stdout);  // the last file printed is the one that failed
         std::ifstream in(file, std::ios::binary);
         const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
         LLVMFuzzerTestOneInput(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());

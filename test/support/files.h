@@ -1,4 +1,4 @@
-// Files for tests: a temporary folder that goes away, and the data that lies outside the
+// Files for tests: a temporary folder that is removed at the end, and recorded data outside the
 // repository.
 #pragma once
 
@@ -28,7 +28,7 @@ inline std::string read_file(const std::string& file) {
     return text.str();
 }
 
-/// Recorded data beside the project's folder, or "" where it is absent.
+/// Path of recorded data beside the project's folder, or "" where they are absent.
 inline std::string shared_data(const std::string& name) {
     const std::string path = "../shared/data/" + name;  // tests run in the project's folder
     return std::filesystem::exists(path) ? path : "";
@@ -36,7 +36,7 @@ inline std::string shared_data(const std::string& name) {
 
 }  // namespace dihaptic::testing
 
-/// Skips the test, aloud, where the recorded data is absent.
+/// Skips the test, with a message, where the recorded data is absent.
 #define DIHAPTIC_NEEDS_DATA(variable, name)                            \
     const std::string variable = dihaptic::testing::shared_data(name); \
     if (variable.empty()) GTEST_SKIP() << "../shared/data/" << name << " is absent"

@@ -1,5 +1,5 @@
 // What a fuzzer's target needs to hand bytes to a reader of files. A target is a
-// FOLDER/fuzz/NAME_fuzz.cpp with one function, LLVMFuzzerTestOneInput(), and files to begin with in
+// FOLDER/fuzz/NAME_fuzz.cpp with one function, LLVMFuzzerTestOneInput(), and initial files in
 // NAME_corpus beside it.
 // `./dev fuzz` feeds it nonsense; the tests feed it the corpus, so that what was found once stays
 // found: add the file that made it fail.
@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 
 namespace dihaptic::testing {
 
-/// The bytes as a file with that name, in a folder that has no other; it lasts until the next call.
+/// Path of a file with these bytes and that name, alone in its folder until the next call.
 inline std::string as_file(std::span<const uint8_t> bytes, const std::string& name) {
     static const TemporaryFolder folder;
     std::string file = folder.file(name);

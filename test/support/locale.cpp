@@ -1,5 +1,5 @@
-// Tests take the numbers of the system's language, as the window's toolkit does: no number may
-// depend on it (base/number.h). LC_ALL=de_DE.UTF-8 ./dev test --fast tries another.
+// Tests use the system language's format of numbers, as the window's toolkit does: no number may
+// depend on it (base/number.h). LC_ALL=de_DE.UTF-8 ./dev test --fast tries another language.
 #include <clocale>
 
 namespace {

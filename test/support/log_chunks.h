@@ -1,5 +1,5 @@
-// A raw.log taken apart into its chunks, to be damaged in ways that a disk, a program or a person
-// may damage it; and as programs before version 2 wrote it.
+// Takes a raw.log apart into its chunks, so that tests can damage it as a disk, a program or a
+// person might, and rewrites it as programs before version 2 wrote it.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +39,7 @@ inline Bytes chunk_of(ChunkHeader header, const Bytes& payload) {
     return Bytes(reinterpret_cast<const char*>(&header), sizeof(header)) + payload;
 }
 
-/// A packed chunk as one of records that can be read, and changed, byte by byte.
+/// A packed chunk as a chunk of plain records, which can be read and changed byte by byte.
 inline Bytes unpacked(const Bytes& chunk) {
     ChunkHeader header = header_of(chunk);
     if (header.kind != recording::kPacked) return chunk;
@@ -94,8 +94,8 @@ constexpr const char* kMischiefNames[kMischiefs] = {
     "swapped",         "doubled",         "dropped",       "foreign_between", "foreign_instead",
     "chunk_after_end", "bytes_after_end", "log_after_end", "bytes_between"};
 
-/// The log with one thing done to it that leaves every checksum right. `other`: a log of another
-/// session. The head stays: without it there is no log.
+/// The log with one change that leaves every checksum right. `other`: a log of another
+/// session. The head is kept: without it there is no log.
 inline Bytes do_mischief(Mischief what, const Bytes& log, const Bytes& other,
                          std::mt19937_64& random) {
     std::vector<Bytes> chunks = take_apart(log);
@@ -206,7 +206,7 @@ inline Bytes crafted(const Bytes& log, std::mt19937_64& random) {
             default:
                 for (size_t i = pick(1, 20); i > 0 && !payload.empty(); --i) {
                     const size_t at = pick(0, payload.size());
-                    // what is a count, an index, a sign or an exponent in the file
+                    // lengths of counts, indices, signs and exponents in the file
                     const size_t length = std::min<size_t>(1u << pick(0, 4), payload.size() - at);
                     const char to = std::array{'\0', '\xff', '\x7f', '9', '-'}[pick(0, 5)];
                     payload.replace(
@@ -216,7 +216,7 @@ inline Bytes crafted(const Bytes& log, std::mt19937_64& random) {
         }
         chunk = chunk_of(header, payload);
     }
-    if (in_head) {  // the others go with it
+    if (in_head) {  // the others' headers must name the same session
         const uint64_t session = recording::session_of(bytes_of(payload_of(chunks[0])));
         for (Bytes& chunk : chunks) {
             ChunkHeader header = header_of(chunk);
@@ -227,7 +227,8 @@ inline Bytes crafted(const Bytes& log, std::mt19937_64& random) {
     return put_together(chunks);
 }
 
-/// One or the other, or both; `made_up` says whether a checksum may be right of what never was.
+/// A log that is damaged, crafted, or both; `made_up`: data that were never recorded may have a
+/// right checksum.
 inline Bytes mutated(const Bytes& log, const Bytes& other, std::mt19937_64& random, bool& made_up) {
     const auto kind = random() % 4;
     made_up = kind >= 2;

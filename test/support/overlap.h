@@ -1,4 +1,4 @@
-// How deep two boxes overlap, from their shapes alone: a judge of what collision detection says.
+// Computes how deep two boxes overlap from their shapes alone, to check collision detection.
 #pragma once
 
 #include <algorithm>

@@ -38,7 +38,7 @@ thread_local int armed = 0;
 
 namespace {
 
-/// The C library's own, whose place the functions below have taken.
+/// The C library's function, which one of those below replaces.
 template <class Function>
 Function real(const char* name) {
     return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
@@ -81,20 +81,21 @@ DIHAPTIC_COUNTED(sem_post, (sem_t * s), (s))
 
 namespace {
 
-/// In memory that the watched process shares with ours.
+/// Counts, in memory that the watched process shares with this one.
 struct Counts {
     std::array<int, 512> of;
 };
 Counts* shared = nullptr;
 
-/// In place of a system call: the kernel asks for this.
+/// Handles the signal that the kernel sends in place of a system call.
 void on_call(int, siginfo_t* info, void* context) {
     const auto number = static_cast<size_t>(info->si_syscall);
     ++shared->of[number % shared->of.size()];
     static_cast<ucontext_t*>(context)->uc_mcontext.gregs[REG_RAX] = -ENOSYS;
 }
 
-/// From here on every system call of this process is a signal, but for its end and the signal's.
+/// From here on every system call of this process becomes a signal, except those that end it or
+/// return from the signal.
 bool forbid_calls() {
     struct sigaction action {};
     action.sa_sigaction = on_call;

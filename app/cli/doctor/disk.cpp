@@ -64,7 +64,7 @@ double write_speed(const std::string& folder) {
     const std::vector<char> block(1'000'000, 'd');
     const auto began = std::chrono::steady_clock::now();
     for (size_t written = 0; written < kWritten;) {
-        // a disk that becomes full accepts a part, and refuses the rest
+        // a disk that fills up accepts part of a block, and refuses the rest
         const ssize_t size = write(file.get(), block.data(), block.size());
         if (size <= 0) throw refused();
         written += static_cast<size_t>(size);

@@ -13,15 +13,16 @@ constexpr const char* kAnotherDisk =
 /// of /proc/self/mountinfo.
 std::string file_system(const std::string& mounts, const std::string& folder);
 
-/// The location of this system: on a disk, in a container, or in memory, started from a USB stick.
+/// Where this system is: installed on a disk, in a container, or live in memory after a start from
+/// a USB stick.
 enum class System { installed, container, live };
 Finding kind_of_disk(const std::string& type, System system);
 
 /// `speed`: measured speed of writing; `needed`: speed required by a session [bytes/s].
 Finding keeps_up(double speed, double needed);
 
-/// Checks the folder for sessions: `sessions`, or its future location. Writes a file there, and
-/// removes it again.
+/// Checks the folder `sessions` or, while it does not exist, the current folder. Writes a file
+/// there, and removes it again.
 Findings disk();
 
 }  // namespace dihaptic::doctor

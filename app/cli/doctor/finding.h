@@ -18,7 +18,7 @@ struct Finding {
     std::string what;                   ///< e.g. "kernel"
     std::string found;                  ///< the finding, with its consequence for an experiment
     std::vector<std::string> commands;  ///< commands that solve the problem, in this order
-    /// Sessions on simulated devices require it too.
+    /// Whether sessions on simulated devices, too, require what was checked.
     bool needed = false;
 };
 using Findings = std::vector<Finding>;

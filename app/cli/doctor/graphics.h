@@ -17,7 +17,7 @@ Finding drawing(const std::string& root, const MayOpen& may_open);
 Finding drawn_by(const std::string& renderer, const std::string& version, const std::string& root,
                  const MayOpen& may_open);
 Finding screen(const Variable& variable);
-/// The runtime is not started: some start entire programs.
+/// Does not start the runtime, because some runtimes start entire programs.
 Finding headset(const std::string& root, const Variable& variable);
 
 }  // namespace dihaptic::doctor

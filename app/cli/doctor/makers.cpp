@@ -13,7 +13,7 @@ Findings of_maker(const std::string& backend, const devices::Survey& survey) {
              fmt::format("{}{}: {}", device.model,
                          device.serial.empty() ? "" : ", serial " + device.serial, device.state),
              {}});
-    // a laboratory usually has devices from one maker, so the others are not missing
+    // a laboratory usually has devices from one maker, and lacks nothing without the others' parts
     if (!survey.missing.empty()) out.push_back({Verdict::note, backend, survey.missing, {}});
     return out;
 }

@@ -15,7 +15,7 @@ struct Part {
     bool needed;
 };
 
-/// Those that dihaptic calls.
+/// Dihaptic's other programs, which the program dihaptic calls.
 constexpr std::array kParts{
     Part{"dihaptic-mesh", "reads meshes", true},
     Part{"dihaptic-decompose", "cuts concave meshes", true},
@@ -51,10 +51,10 @@ Finding films(const std::string& paths) {
 
 Finding path(const std::string& paths) {
     if (app::shell_finds_program(paths))
-        return {Verdict::ok, "PATH", "your shell finds this program wherever you are", {}};
+        return {Verdict::ok, "PATH", "your shell finds this program from any folder", {}};
     return {Verdict::note,
             "PATH",
-            "your shell does not find this program when you type dihaptic alone",
+            "your shell does not find this program when you type just 'dihaptic'",
             {app::path_command()}};
 }
 

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 struct Known {
     const char* name;
     const char* vendor;
-    const char* product;  ///< "": any of the vendor's
+    const char* product;  ///< "" stands for any product of the vendor
 
     std::string rule() const {
         return fmt::format(
@@ -29,7 +29,7 @@ struct Known {
 };
 constexpr std::array kKnown{Known{"Force Dimension", "1451", ""}, Known{"Falcon", "0403", "cb48"}};
 
-/// Paths of the entries of a folder, in order; none if there is no such folder.
+/// Sorted paths of the entries of a folder; none if there is no such folder.
 std::vector<std::string> in(const std::string& folder) {
     std::vector<std::string> out;
     std::error_code failed;
@@ -115,7 +115,7 @@ Finding serial(const std::string& root, const MayOpen& may_open) {
                 {}};
     return {Verdict::lacks,
             "serial lines",
-            fmt::format("{}: you may not open it, so no event code goes there",
+            fmt::format("{}: you may not open it, so it receives no event codes",
                         fmt::join(closed, ", ")),
             {"sudo usermod -aG dialout $USER    # then log in again"}};
 }

@@ -23,7 +23,7 @@ std::string add_limit(const std::string& limit) {
                        limit);
 }
 
-/// Grants the root of a container the rights of that option.
+/// The command that starts a container whose root user has the rights that `option` grants.
 std::string start_container(const std::string& option) {
     return fmt::format("docker run {} ...    # starts the container again", option);
 }

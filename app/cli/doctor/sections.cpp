@@ -24,7 +24,7 @@
 namespace dihaptic::doctor {
 namespace {
 
-constexpr int kPatience = 15;  // patience with a section [s]
+constexpr int kPatience = 15;  // time limit of a section [s]
 
 bool may_open(const std::string& file) {
     return access(file.c_str(), R_OK | W_OK) == 0;
@@ -66,7 +66,7 @@ Findings look_from_outside(const Section& section) {
     std::error_code ignored;
     task.program = std::filesystem::read_symlink("/proc/self/exe", ignored).filename().string();
     task.arguments = {"doctor", "--section", section.name};
-    // a graphics driver reserves any number of addresses
+    // a graphics driver may reserve any amount of address space
     task.limits = {kPatience, kPatience, std::numeric_limits<uint64_t>::max(), 1 << 30};
     task.what = "the check";
     try {
@@ -81,7 +81,7 @@ Findings look_from_outside(const Section& section) {
 }
 
 void look_inside(const std::string& name) {
-    // nothing requires an orderly end
+    // this process may be ended at any moment
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
     const std::vector<Section> all = sections();
     const auto section =

@@ -1,4 +1,4 @@
-// Shows the doctor other machines: folders with the files that Linux would have there.
+// Shows the doctor other machines, as folders with the files that Linux would have on them.
 #include <gtest/gtest.h>
 
 #include <cerrno>
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A machine whose files are those that are put here.
+/// A machine that has only the files passed to put().
 class Machine {
   public:
     void put(const std::string& file, const std::string& text) const {
@@ -203,7 +203,7 @@ TEST(Doctor, SaysWhenMemoryIsLockedInPartOnly) {
     const Finding memory = of(real_time(machine.root(), rights), "memory");
     EXPECT_EQ(memory.verdict, Verdict::note);
     EXPECT_NE(commands(memory).find("memlock unlimited"), std::string::npos);
-    rights.root = true;  // in no container
+    rights.root = true;  // outside any container
     EXPECT_EQ(commands(of(real_time(machine.root(), rights), "memory")).find("ulimit -l unlimited"),
               0u);
 }
@@ -371,7 +371,7 @@ TEST(Doctor, FindsTheFileSystemOfAFolder) {
     EXPECT_EQ(file_system(kMounts, "/srv/study"), "ext4");
     EXPECT_EQ(file_system(kMounts, "/tmp"), "tmpfs");
     EXPECT_EQ(file_system(kMounts, "/tmpfiles"), "ext4");
-    EXPECT_EQ(file_system(kMounts, "/home/ada/study"), "nfs4");  // it is mounted over the other one
+    EXPECT_EQ(file_system(kMounts, "/home/ada/study"), "nfs4");  // mounted over the autofs
     EXPECT_EQ(file_system(kMounts, "/mnt/my disk/study"), "cifs");
     EXPECT_EQ(file_system("", "/tmp"), "");
     EXPECT_EQ(file_system("damaged\n - \n", "/tmp"), "");
@@ -385,7 +385,7 @@ TEST(Doctor, TellsDisksThatOneShouldNotRecordTo) {
     EXPECT_NE(kind_of_disk("overlay", System::container).found.find("lost when it is removed"),
               std::string::npos);
     EXPECT_EQ(kind_of_disk("overlay", System::live).verdict, Verdict::lacks);
-    EXPECT_EQ(kind_of_disk("ext4", System::live).verdict, Verdict::ok);  // the stick's own
+    EXPECT_EQ(kind_of_disk("ext4", System::live).verdict, Verdict::ok);  // the stick itself
 }
 
 TEST(Doctor, ComparesTheDiskWithASession) {

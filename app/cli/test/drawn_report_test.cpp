@@ -1,4 +1,4 @@
-// Tests what the window says when Python draws no page.
+// Tests the message of the window when Python draws no page.
 #include "common/drawn_report.h"
 
 #include <gtest/gtest.h>

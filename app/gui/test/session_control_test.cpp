@@ -111,7 +111,7 @@ TEST_F(SessionControlTest, AFileWithErrorsLeavesTheLastGoodOne) {
     EXPECT_FALSE(problems_.isEmpty());
     EXPECT_FALSE(control_.complaint().isEmpty());
     EXPECT_EQ(control_.plan()->title, "A 100 g block on a table");
-    EXPECT_TRUE(logged("The open file stays as it is."));
+    EXPECT_TRUE(logged("The open file stays unchanged."));
 }
 
 TEST_F(SessionControlTest, NoSessionStartsFromUnsavedTextWithErrors) {
@@ -121,7 +121,7 @@ TEST_F(SessionControlTest, NoSessionStartsFromUnsavedTextWithErrors) {
     control_.read(request(), "title: [\n");
     ASSERT_TRUE(comes_to(State::checked));
     EXPECT_FALSE(problems_.isEmpty());
-    EXPECT_TRUE(control_.complaint().isEmpty());  // they are shown at their place in the text
+    EXPECT_TRUE(control_.complaint().isEmpty());  // mistakes are shown at their place in the text
     EXPECT_FALSE(control_.want_start());
     EXPECT_TRUE(logged("The text has errors"));
     control_.set_edited(false);

@@ -68,7 +68,7 @@ class SessionRunnerTest : public ::testing::Test {
 
 TEST_F(SessionRunnerTest, AWindowThatHangsBeforeItsFirstPictureTakesForceAwayToo) {
     grip();
-    QThread::msleep(6500);  // force goes off after 5 s for the picture and 1 s more
+    QThread::msleep(6500);  // force goes off 1 s after the 5 s allowed for the first picture
     EXPECT_NE(runner_.read_frame().status & kForceOff, 0u);
     QString told;
     ASSERT_TRUE(answer_until([&] { return !(told = runner_.take_told()).isEmpty(); }));

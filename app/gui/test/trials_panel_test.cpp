@@ -63,7 +63,7 @@ TEST_F(TrialsPanelTest, ShowsWhatIsMeasuredOnceItIsFound) {
     EXPECT_EQ(text(1, "shown_extent_mm"), "hidden");
     EXPECT_EQ(text(1, "not_measured"), "hidden");
     EXPECT_EQ(text(1, "peak_grip_N"), "no column") << "it is shown as grip";
-    end(2, 1);  // its figures were found before
+    end(2, 1);  // its figures were found before it ended
     EXPECT_EQ(text(2, "hand_angle_deg"), "3.5");
     end(3, 1);
     EXPECT_EQ(text(3, "hand_angle_deg"), "");

@@ -12,7 +12,7 @@
 namespace dihaptic::gui::word_finder_test {
 namespace {
 
-/// The words offered where `text` has a |.
+/// The words offered where `text` contains a |.
 class Words {
   public:
     explicit Words(QString text, const std::string& name = "file.yaml") {

@@ -19,7 +19,7 @@ TEST(BenchChain, OursHoldsTogetherAndKeepsItsEnergy) {
             EXPECT_LT(std::abs(row.energy), 1e-3) << row.links;
             EXPECT_LT(row.energy_above, 1e-2) << row.links;
         } else {
-            EXPECT_LT(row.apart_mm, 60 * row.links) << row.links;  // it is jointed at all
+            EXPECT_LT(row.apart_mm, 60 * row.links) << row.links;  // links are joined at all
         }
     }
 }

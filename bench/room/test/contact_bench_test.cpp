@@ -93,7 +93,7 @@ TEST(BenchContact, SolvesTheProblemThatCarriesASolution) {
     }
 }
 
-/// A file of one contact, a point mass of 1 kg on a plane, with a test's mistakes.
+/// A file of one contact, a point mass of 1 kg on a plane, with the mistakes that a test makes.
 struct Small {
     std::vector<double> q{-1, 0, 0};
     std::vector<double> mu{0.5};

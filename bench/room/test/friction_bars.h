@@ -23,7 +23,7 @@ inline void expect_bars_of_friction(contact::Solver solver, const FrictionFigure
     ASSERT_TRUE(figures.cards_drift_mm);
     EXPECT_TRUE(figures.arch_drift_mm);
     if (solver == contact::Solver::sequential_impulse) {
-        // guards against regressions: README has 0.23, 0.004 and 0.002. Bullet's solver, which
+        // guards against regressions: README gives 0.23, 0.004 and 0.002. Bullet's solver, which
         // this one replaced, left 0.14, 0.013 and 0.050.
         EXPECT_LT(figures.stack_drift_mm, 0.25);
         EXPECT_LT(*figures.cards_drift_mm, 0.006);

@@ -1,4 +1,4 @@
-// Tests the figures of `dihaptic-bench solvers` with few solves, but no times.
+// Tests the figures of `dihaptic-bench solvers`, except times, with few solves.
 #include <gtest/gtest.h>
 
 #include "bench/bullet_problem.h"

@@ -6,8 +6,8 @@
 
 Each figure is saved as SVG, PDF and PNG, with the points that are drawn (CSV), and with a script of a few lines, which
 draws it anew from the tables and can be changed for a paper. Each kind of figure is a pair of functions: one makes a table
-of points, in which a row is what is drawn, and the other one draws such a table. `python3 -m dihaptic.figures FOLDER` does
-what draw() does. A table of points of simulated people carries the word that its figures have in a corner,
+with a row for each thing that is drawn, and the other draws such a table. `python3 -m dihaptic.figures FOLDER` does
+what draw() does. A table of points of simulated people carries the word that its figures show in a corner, in
 points.attrs["mark"]. Figures need matplotlib and SciPy.
 """
 

@@ -16,9 +16,9 @@ from .saving import Plan
 from .style import COLOURS, MARKERS, WIDTHS, canvas, drawing, fit_names, legend_above, of_data, same_limits, wrapped
 from .words import counted, label, level, words_of
 
-#: Above these figures on the page of a report.
+#: Heading above these figures in a report.
 HEADING = "By condition"
-#: Most panels of a figure, and most levels that colours tell apart.
+#: Maximum numbers of panels in a figure, and of levels with colours of their own.
 _MOST_PANELS = 9
 _MOST_COLOURS = 7
 #: Figures of lifts.csv that a study of grip reports (Johansson and Westling 1984).
@@ -28,7 +28,7 @@ LIFT_MEASURES = [
 
 
 def counting_trials(data: Data, table: str = "trials") -> pd.DataFrame:
-    """The last attempt at each trial, practice and catch trials left out; of "lifts", each with its trial's design.
+    """The last attempt at each trial, without practice and catch trials; for "lifts", their lifts, with the trials' design.
 
     >>> from dihaptic import figures
     >>> len(counting_trials(figures.read(lift_session), "lifts"))
@@ -40,7 +40,7 @@ def counting_trials(data: Data, table: str = "trials") -> pd.DataFrame:
         columns = [str(column) for column in trials]
         # what describes a trial comes from trials.csv, even if the other table has a measure of the same name
         design = columns[: columns.index("attempt" if "attempt" in columns else "trial_num") + 1]
-        design += [name for name in data.factors if name not in design]  # of a later session with another task
+        design += [name for name in data.factors if name not in design]  # factors of a later session with another task
         keys = [key for key in (*SITTING, "trial_num", "attempt") if key in design and key in other]
         new = [column for column in other if column not in design]
         attrs = {"units": {**other.attrs.get("units", {}), **trials.attrs.get("units", {})}}
@@ -62,10 +62,10 @@ def without_channels(trials: pd.DataFrame) -> pd.DataFrame:
 
 
 def each_in_conditions(trials: pd.DataFrame, measure: str, by: list[str], single: bool) -> pd.DataFrame:
-    """What means of a measure are over, in each condition: people's means over n trials or, of a single person, the trials.
+    """The values to average of a measure, in each condition: people's means over n trials or, for one person, the trials.
 
     A row has the columns `by`, person, value, n, and `of`, which is "person". Force channels are left out, unless the
-    measure is one of channels.
+    measure exists only in them.
     """
     known = without_channels(trials[trials[measure].notna()])
     if single:
@@ -94,9 +94,9 @@ def means_by_condition(
     """Means of measures in each condition: of each person, and over people.
 
     `x`, `colour` and `panel` are columns of trials.csv. A row has the measure, the levels, and `of`: "person", whose mean
-    over n trials is `value`; or "mean", that over n people, with its 95 % interval from `low` to `high` (Student's t). Of
+    over n trials is `value`; or "mean", that over n people, with its 95 % interval from `low` to `high` (Student's t). For
     one person, the dots are trials, and the mean is over them. Practice, catch trials and all but the last attempt at a
-    trial are left out; so are force channels, unless the measure is one of channels. Raises NotThere, or Error when no
+    trial are left out; so are force channels, unless the measure exists only in them. Raises NotThere, or Error when no
     trial has a value.
 
     >>> from dihaptic import figures
@@ -123,8 +123,8 @@ def means_by_condition(
     columns = ["measure", *by, "of", "person", "n", "value", "low", "high"]
     out = pd.concat(parts, ignore_index=True).reindex(columns=columns)
     if out.empty:
-        raise error("has no value in a trial that counts", "Name a measure of this task.", key=", ".join(measures))
-    out = data.in_order(out, by)  # in which it is then drawn
+        raise error("has no value in any of the included trials", "Name a measure of this task.", key=", ".join(measures))
+    out = data.in_order(out, by)  # the order of drawing
     out = out.sort_values("measure", key=lambda names: names.map({m: i for i, m in enumerate(measures)}), kind="stable")
     out = out.reset_index(drop=True)
     out.attrs["units"] = {name: unit for name, unit in units.items() if name in [*measures, *by]}
@@ -154,7 +154,7 @@ def draw_conditions(
     if means.empty:
         raise error("there is no mean to draw", "Draw a table of means_by_condition() with its rows of means.")
     if means.duplicated(["measure", *(name for name in (x, colour, panel) if name)]).any():
-        raise error("there are several means at one place", "Name as colour or panel what tells them apart.", key=x)
+        raise error("there are several means at one place", "Choose as colour or panel a column that separates them.", key=x)
     measures = list(dict.fromkeys(points["measure"]))
     order = order or {}
     for column, levels in order.items():
@@ -191,7 +191,7 @@ def draw_conditions(
 
 
 def _grid(measures: int, panels: int, size: str) -> tuple[int, int]:
-    """Rows and columns of panels: panels of a measure side by side, or measures, where there is one panel each."""
+    """Rows and columns of panels: a row for each measure or, if each has a single panel, measures side by side."""
     if panels > 1:
         return measures, panels
     columns = min(measures, 3 if size == "two columns" else 1)
@@ -199,7 +199,7 @@ def _grid(measures: int, panels: int, size: str) -> tuple[int, int]:
 
 
 def _places(levels: pd.Series, order: list[str] | None) -> dict[Any, float]:
-    """The place of each level on the axis: numbers are their own places."""
+    """The position of each level on the axis: numbers are at their values."""
     values = list(levels.dropna().unique())
     if all(isinstance(value, (int, float, np.number)) for value in values):
         return {value: float(value) for value in sorted(values)}
@@ -219,7 +219,7 @@ def _dots_and_mean(
     for _, own in people.groupby("person"):
         own = own.sort_values(x, key=lambda levels: levels.map(places))
         at = [places[value] + aside for value in own[x]]
-        joined = len(own) == own[x].nunique()  # the trials of one person are not
+        joined = len(own) == own[x].nunique()  # one person's trials are not joined
         axes.plot(at, own["value"], color=hue, alpha=0.35, linewidth=0.6 if joined else 0, marker=".", markersize=3)
     mean = shown[shown["of"] == "mean"].assign(at=lambda rows: [places[value] + aside for value in rows[x]]).sort_values("at")
     low, high = (mean["value"] - mean["low"]).fillna(0), (mean["high"] - mean["value"]).fillna(0)
@@ -228,7 +228,7 @@ def _dots_and_mean(
 
 
 def _label(axes: Axes, places: dict[Any, float], xlabel: str, ylabel: str, width_mm: float) -> None:
-    """Labels of a panel that is so wide."""
+    """Labels of a panel of this width."""
     words = any(isinstance(value, str) for value in places)
     if words or len(places) <= 6:
         axes.set_xticks(list(places.values()), [level(value) for value in places])
@@ -297,7 +297,7 @@ def axes_of_design(data: Data) -> dict[str, str]:
 
 
 def _axes_of_names(trials: pd.DataFrame) -> dict[str, str]:
-    """The same of a design without factors: conditions, and perturbations that are crossed with them; or blocks."""
+    """The same for a design without factors: conditions, and perturbations that are crossed with them; or blocks."""
     if trials["condition"].nunique() > 1:
         crossed = trials.groupby("condition")["perturbation"].nunique().max() > 1
         several = trials["group"].nunique() > 1

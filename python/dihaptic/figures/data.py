@@ -18,18 +18,18 @@ from ..session import Session
 from .sessions import Paths, Sample, Sitting, Sittings, named_apart, renamed
 from .words import label, split
 
-#: Trials of these kinds are not among those that show the effect of a condition.
+#: Kinds of trials that do not show the effect of a condition.
 ASIDE = ["practice", "catch"]
-#: Columns that tell the sessions of all people apart.
+#: Columns that identify a session among those of all people.
 SITTING = ("person", "group", "session", "study_session")
-#: Columns of trials.csv that describe a trial, or how it was done, and that are no measure.
+#: Columns of trials.csv that are not measures: those up to this one, and the ones below, which follow the measures.
 _END_OF_DESIGN = "attempt"
 _AFTER_MEASURES = ["not_measured", "simulated", "moved_by", "start_type", "replays"]
-#: Most trials in a window of a learning curve, such as early or late, in fits.csv.
+#: Maximum number of trials in a window of a learning curve, such as early or late, in fits.csv.
 WINDOW = 8
-#: Columns of measures that tell what acted on the hand, not what it did.
+#: Columns of measures that describe what acted on the hand, not what the hand did.
 _NOT_BEHAVIOUR = ["field_share"]
-#: Values that differ by less than this share of their range are the same.
+#: Values that differ by less than this share of their range are taken to be the same.
 _SAME = 0.01
 
 
@@ -48,7 +48,7 @@ class Measure:
 
     @property
     def label(self) -> str:
-        """Its name and unit, for an axis."""
+        """The measure's name and unit, for an axis."""
         return label(self.column, self.unit)
 
 
@@ -58,10 +58,11 @@ def read(
 ) -> Data:  # fmt: skip
     """The tables of a session's folder, of a rehearsal's, of a study's file, or of a folder that contains sessions.
 
-    Several paths, in a list, are compared: the people of each are a group. `people` names those who count, in all figures
-    and means; the default is everybody. Of a folder with several experiments, `experiment` names one by its title;
-    `moved_by`, a value of that column of tables, tells people from simulated ones, and `population` names one of those: they
-    are never averaged. Raises Error when there is nothing, or when several samples are left, and NotThere for a person's name.
+    Several paths, in a list, are compared: the people of each are a group. `people` names those who are included, in all
+    figures and means; the default is everybody. In a folder with several experiments, `experiment` selects one by its title;
+    `moved_by`, a value of that column of tables, selects people or simulated people, and `population` one population of the
+    latter: different samples are never averaged. Raises Error when there is nothing, or when several samples are left, and
+    NotThere for an unknown person.
 
     >>> from dihaptic import figures
     >>> figures.read(lift_session)
@@ -74,7 +75,7 @@ class Data:
     """The tables that figures are drawn from, of one person or of many.
 
     Every table has the columns `person` and `group` ("" without groups). `paths` are those that were read, and `left_out`
-    says of each session that does not count why.
+    gives the reason for each session that is not included.
 
     >>> from dihaptic import figures
     >>> data = figures.read(lift_session)
@@ -84,7 +85,7 @@ class Data:
 
     def __init__(self, found: Sittings, people: list[str] | None, wanted: Sample) -> None:
         self.paths, self.left_out = found.paths, found.left_out
-        #: What chose these people, to be repeated in a script.
+        #: The arguments that chose these people, to be repeated in a script.
         self.choice: dict[str, Any] = {"people": people, **asdict(wanted)}
         chosen = [sitting for sitting in found.counting if sitting.sample.is_among(wanted)]
         samples = sorted({sitting.sample for sitting in chosen}, key=str)
@@ -110,7 +111,7 @@ class Data:
 
     @property
     def folder(self) -> Path:
-        """Where figures of these data go: beside their tables."""
+        """The folder for figures of these data: beside their tables."""
         path = self.paths[0]
         return path.parent if path.is_file() else path
 
@@ -121,12 +122,12 @@ class Data:
 
     @property
     def sessions(self) -> list[Session]:
-        """The sessions that count."""
+        """The sessions that are included."""
         return [sitting.session for sitting in self.sittings]
 
     @property
     def recorded(self) -> list[Sitting]:
-        """The sessions with a session.nwb, and whose they are: a rehearsal keeps the tables alone."""
+        """The sessions with a session.nwb, and their people; a rehearsal keeps only tables."""
         return [sitting for sitting in self.sittings if (sitting.session.folder / "session.nwb").is_file()]
 
     @property
@@ -187,7 +188,7 @@ class Data:
 
     @cached_property
     def factors(self) -> list[str]:
-        """Columns of trials.csv that are factors of the design, those with a single level left out."""
+        """Columns of trials.csv that are factors of the design, without those that have a single level."""
         trials = self.table("trials")
         names: list[str] = []
         for task in self.tasks:
@@ -235,7 +236,7 @@ class Data:
         return [*dict.fromkeys(value for value in known if value in found), *(value for value in found if value not in known)]
 
     def in_order(self, table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
-        """The rows of a table in the order of the levels of its columns `by`, the first one above all."""
+        """The rows of a table sorted by the levels of its columns `by`, first by the first one."""
         trials = self.table("trials")
         for name in reversed(by):
             place = {value: i for i, value in enumerate(self.levels(name) if name in trials else [])}
@@ -268,7 +269,7 @@ class Data:
 
     @cached_property
     def stimuli(self) -> list[str]:
-        """Columns of measures whose values the experiment set: they tell what was presented, not what people did.
+        """Columns of measures whose values the experiment set: they describe what was presented, not what people did.
 
         Their expression has nothing but factors and draws; or they have three or more values, and within a condition the
         same one in all trials of all people.
@@ -316,7 +317,7 @@ class Data:
 
 
 def _is_made_of(expression: str, names: set[str]) -> bool:
-    """Whether an expression of a task has some of these names, and no other ones but those of functions and units."""
+    """Whether an expression of a task has some of these names, and otherwise only names of functions and units."""
     expression = re.sub(r"\d\s*[A-Za-z]+(/[A-Za-z]+)?", "0", expression)
     found = re.findall(r"\"[^\"]*\"|[A-Za-z_][\w.]*(?!\w*\s*\()", expression)
     return bool(found) and set(found) <= names
@@ -330,12 +331,12 @@ def checked_list(name: str, values: list[str]) -> list[str]:
 
 
 def sitting_columns(table: pd.DataFrame) -> list[str]:
-    """Columns of a table that tell the sessions of all people apart."""
+    """Columns of a table that identify a session among those of all people."""
     return [column for column in SITTING if column in table]
 
 
 def _joined(parts: list[pd.DataFrame]) -> pd.DataFrame:
-    """The tables below each other. A column that is empty in one session and has words in another keeps its words."""
+    """The tables, one below another. A column that is empty in one session and has words in another keeps its words."""
     kinds = pd.DataFrame([part.dtypes for part in parts])
     mixed = [column for column in kinds if kinds[column].nunique(dropna=False) > 1]
     parts = [part.astype({column: object for column in mixed if column in part}) for part in parts]

@@ -44,15 +44,15 @@ class Drawn:
     """A figure whose files are in a folder."""
 
     plan: Plan
-    heading: str  #: above it on the page, e.g. "Learning"
+    heading: str  #: heading above it on the page, e.g. "Learning"
     script: Path
-    kept: bool  #: its script had been changed, and it was left as it is
+    kept: bool  #: whether its script had been changed, so that it was left as it is
 
 
 def draw_data(
     data: Data, folder: str | Path, *, jobs: int = 1, progress: Callable[[str], None] | None = None
 ) -> list[Drawn]:
-    """Does what draw() does, of data that have been read, in `jobs` processes. Raises Error."""
+    """Does what draw() does, for data that have been read, in `jobs` processes. Raises Error."""
     folder = Path(folder).absolute()
     made = []
     for kind in KINDS:
@@ -76,7 +76,7 @@ def draw_data(
 
 
 def _save_all(made: list[Drawn], data: Data, folder: Path, jobs: int) -> Iterator[str]:
-    """Makes and saves these figures, and gives the title of each that is done."""
+    """Makes and saves these figures, and yields the title of each when it is done."""
 
     def save_one(i: int) -> str:
         plan = made[i].plan
@@ -88,7 +88,7 @@ def _save_all(made: list[Drawn], data: Data, folder: Path, jobs: int) -> Iterato
     if min(jobs, len(made)) < 2 or "fork" not in get_all_start_methods():
         yield from map(save_one, range(len(made)))
         return
-    # a child that is forked has the data: nothing is read, or handed over, twice
+    # forked children already have the data, so nothing is read again, or passed on
     with ProcessPoolExecutor(jobs, get_context("fork"), _take, (save_one,)) as children:
         yield from children.map(_do, range(len(made)))
 
@@ -114,7 +114,7 @@ def main(words: list[str]) -> int:
             "Example:\n  python3 -m dihaptic.figures rehearsals/grip-and-lift_1"
         )
         return 0 if words and words[0] in ("-h", "--help") else 2
-    warnings.formatwarning = lambda message, *_: f"{message}\n"  # for somebody who has typed a command
+    warnings.formatwarning = lambda message, *_: f"{message}\n"  # short, for the command line
     try:
         scripts = draw(*words, progress=lambda title: print(title, file=sys.stderr))
     except Error as why:

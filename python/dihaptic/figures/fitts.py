@@ -19,7 +19,7 @@ from .saving import Plan
 from .style import COLOURS, MARKERS, canvas, drawing, legend_above, of_data
 from .words import counted, level, split
 
-#: Above this figure on the page of a report.
+#: Heading above this figure in a report.
 HEADING = "By condition"
 _TIME = "movement_time_s"
 #: Units of length [mm].
@@ -37,9 +37,9 @@ def fitts_law(data: Data) -> pd.DataFrame:
     The distance D of a reach is that between the regions of the task's `movement`, from the centre of `from` to that of
     `to`, and the width W is the diameter of `to`, both in mm. The index of difficulty is log2(D / W + 1) in bits, Shannon's
     formulation, as in ISO 9241-411. A row is `of` "person", whose mean over n trials is `value` [s]; "mean", that over n people,
-    with its 95 % interval from `low` to `high` (Student's t); or an end of the "line": the least squares through the means
+    with its 95 % interval from `low` to `high` (Student's t); or an end of the "line": the least-squares line through the means
     of a group, with intercept, slope and R². Its `throughput_bits_s` is the mean over people of their means of index
-    over movement time in each condition, with the nominal widths. Of one person, a "person" is a trial. Practice, catch
+    over movement time in each condition, with the nominal widths. For one person, a "person" is a trial. Practice, catch
     trials and all but the last attempt at a trial are left out. Raises Error when the task has no such reach.
     """
     trials = _difficulties(data)
@@ -116,18 +116,18 @@ def plans(data: Data) -> Iterator[Plan]:
         title="Movement time over the index of difficulty",
         caption="The index is log2(D / W + 1), with the distance D and the nominal width W of the target (Shannon's "
         f"formulation, ISO 9241-411). {dots}; marks are means over {'trials' if single else 'people'}{means}; the line "
-        f"is the least squares through the means of conditions: {law_in_words(points)}. {counted(people, 'person', 'people')}, "
+        f"is the least-squares fit to the means of conditions: {law_in_words(points)}. {counted(people, 'person', 'people')}, "
         f"{counted(trials, 'trial')}; practice, catch trials and repeated attempts are left out.",
         points=fitts_law,
         drawing=draw_fitts_law,
     )
 
 
-# What the task says of its targets
+# The task's targets
 
 
 def _difficulties(data: Data) -> pd.DataFrame | None:
-    """The trials that count, with distance, width and index of difficulty of their reach; None if these do not vary."""
+    """The trials that are included, with distance, width and index of difficulty of their reach; None if these do not vary."""
     trials = counting_trials(data)
     movement = data.task.get("movement") or {}
     regions = {str(region.get("name")): region for region in data.task.get("regions") or []}
@@ -166,7 +166,7 @@ def _values(trials: pd.DataFrame) -> dict[str, Any]:
 
 
 def _numbers(region: dict[str, Any], key: str, values: dict[str, Any]) -> list[Any] | None:
-    """The numbers of a region's `key` [mm], such as position_mm; None if they take more than arithmetic."""
+    """The numbers of a region's `key` [mm], such as position_mm; None if they need more than arithmetic."""
     for unit, scale in _LENGTHS.items():
         given = region.get(f"{key}_{unit}")
         if given is None:

@@ -21,13 +21,13 @@ from .saving import Plan
 from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, fit_names, legend_above, of_data, same_limits, wrapped
 from .words import counted, in_print, label, level, words_of
 
-#: Above these figures on the page of a report.
+#: Heading above these figures in a report.
 HEADING = "Learning"
-#: Most panels of a figure, most groups that colours tell apart, and least trials of which a course is drawn.
+#: Maximum numbers of panels in a figure, and of groups with own colours; minimum number of trials for a course.
 _MOST_PANELS, _MOST_GROUPS, _LEAST_TRIALS = 6, 7, 8
-#: Most rows of blocks' names above each other.
+#: Maximum number of rows of blocks' names.
 _MOST_ROWS = 3
-#: Most points of a line, in one panel and in each of several.
+#: Maximum number of points of a line, in a single panel and in each of several.
 _MOST_POINTS, _MOST_POINTS_OF_SEVERAL = 300, 160
 _WIDTHS_OF_BINS = [1, 2, 4, 5, 8, 10, 16, 20, 25, 32, 40, 50, 64, 80, 100]
 #: Kinds of trials that mark a block, with the colour behind it and its name in the legend.
@@ -37,7 +37,7 @@ SHADES = {
     "force_channel": ("#fbdfc4", "force channels"),
     "catch": ("#d5ecd9", "catch trials"),
 }
-#: Kinds of trials that do not tell which perturbation their block has.
+#: Kinds of trials that do not show which perturbation their block has.
 _WITHOUT_PERTURBATION = ["catch", "visual_clamp", "force_channel", "practice"]
 #: Windows of fits.csv that are means, and those that are differences of means, with their names in a figure.
 WINDOWS = {
@@ -55,7 +55,7 @@ _COLUMNS = ["part", "group", "of", "person", "first", "last", "trial", "block", 
 
 
 def _parts(table: pd.DataFrame) -> pd.Series:
-    """What gets a panel of its own: the session of a study, the round."""
+    """The name of the part of each row, which has its own panel: session of a study, round."""
     words = pd.Series("", index=table.index)
     for column in ("study_session", "round"):
         if column in table:
@@ -65,7 +65,7 @@ def _parts(table: pd.DataFrame) -> pd.Series:
 
 
 def _grouped(table: pd.DataFrame) -> pd.DataFrame:
-    """The table, its groups not told apart if there are more than colours."""
+    """The table, with groups merged if there are more groups than colours."""
     return table.assign(group="") if table["group"].nunique() > _MOST_GROUPS else table
 
 
@@ -93,7 +93,7 @@ def _scattered(table: pd.DataFrame) -> pd.Series:
 
 
 def _bins(table: pd.DataFrame, width: int) -> pd.DataFrame:
-    """First and last trial of the bin of each trial of each part: bins do not reach over the end of a block.
+    """First and last trial of the bin of each trial of each part: bins end with their block.
 
     The rest of a block is a bin of its own if it has at least half of the trials of a bin.
     """
@@ -112,7 +112,7 @@ def _bins(table: pd.DataFrame, width: int) -> pd.DataFrame:
 
 
 def _schedule(table: pd.DataFrame) -> pd.DataFrame:
-    """What each trial of a part is for all people of a group: its block, kind and perturbation; "" if they differ."""
+    """The block, kind and perturbation of each trial of a part, for all people of a group; "" if they differ."""
     keys = ["part", "group", "trial"]
     same = table.groupby(keys, sort=False)
     out = same.agg(block=("block", "first"), kind=("kind", "first"), n=("person", "nunique")).reset_index()
@@ -123,7 +123,7 @@ def _schedule(table: pd.DataFrame) -> pd.DataFrame:
     out["block_kind"] = [commonest.get((part, group, block), "") for part, group, block in blocks]
     out["value"] = np.nan
     if "perturbation" in table:
-        # adaptation.csv gives 0 where no error was seen, also in reaches of a perturbed block that fell short
+        # adaptation.csv gives 0 where no error was seen, including reaches of a perturbed block that fell short
         telling = table[~table["kind"].isin(_WITHOUT_PERTURBATION) & table["error_seen"].isin(["yes", True])]
         known = telling.groupby(keys)["perturbation"].mean().rename("known").reset_index()
         out = out.merge(known, on=keys, how="left")
@@ -162,7 +162,7 @@ def _courses(table: pd.DataFrame, width: int, several: bool) -> pd.DataFrame:
 
 
 def _width_of_bins(table: pd.DataFrame, most: int) -> int:
-    """How many trials a point of a line needs: few enough points, and a value of each person in most of them."""
+    """How many trials to average for a point of a line, so that there are few enough points, and most have all people."""
     keys = [*sitting_columns(table), "part"]
     trials = int(table.groupby(keys)["trial"].count().max())
     share = table["value"].notna().groupby([table[column] for column in [*keys, "block"]]).mean()
@@ -174,7 +174,7 @@ def _width_of_bins(table: pd.DataFrame, most: int) -> int:
 
 
 def _frame(points: pd.DataFrame) -> pd.DataFrame:
-    """A table of points, in which empty words are words, also when it was read from a file."""
+    """A table of points, in which empty texts are texts, even if it was read from a file."""
     words = [column for column in ("part", "group", "person", "block", "block_kind", "kind") if column in points]
     return points.assign(**{column: points[column].fillna("").astype(str) for column in words})
 
@@ -183,7 +183,7 @@ def _frame(points: pd.DataFrame) -> pd.DataFrame:
 
 
 def _runs(schedule: pd.DataFrame) -> list[tuple[str, str, float, float]]:
-    """Blocks in the order of trials: name, commonest kind, first and last trial. A block that differs has no name."""
+    """Blocks in the order of trials: name, commonest kind, first and last trial. One that differs between people has none."""
     by_trial = schedule.sort_values("trial").groupby("trial")
     block = by_trial["block"].first().where(by_trial["block"].nunique() == 1, "")
     kind = by_trial["block_kind"].first().where(by_trial["block_kind"].nunique() == 1, "")
@@ -391,7 +391,7 @@ def _draw_courses(
 
 
 def _columns(trials: float, panels: int, size: str) -> int:
-    """Panels of so many trials side by side."""
+    """Number of panels of so many trials that are side by side."""
     if panels == 1 or size != "two columns":
         return 1
     return 3 if panels == 3 and trials <= 80 else 2
@@ -426,7 +426,7 @@ def learning_curve(data: Data, *, unit: str = "", rounds: list[str] | None = Non
     A row is `of` a "person" (value: mean over n trials), the "mean" over n people with its 95 % interval from `low` to
     `high` (Student's t), the "fit" (mean over people's fitted models), or the "schedule": a trial's block, kind, and
     perturbation (`value`). Values are in `unit`. Practice, all but the last attempt at a trial, and catch trials whose
-    places in their block differ between people are left out. Of one person there is no mean.
+    places in their block differ between people are left out. For one person there is no mean.
 
     Example: points = figures.learning_curve(figures.read(dh.rehearse("experiments/visuomotor-rotation.yaml", 4).folder)),
     once `dihaptic report` has made its tables. Raises NotThere without adaptation.csv, or for another round.
@@ -529,7 +529,7 @@ def draw_learning_windows(
 
 
 def _panel_of_windows(axes: Axes, own: pd.DataFrame, cases: list[pd.DataFrame], width_mm: float) -> None:
-    """The windows of a panel that is so wide, and their names; without any, the panel is not seen."""
+    """The windows of a panel of this width, and their names; a panel without windows is hidden."""
     axes.set_visible(not own.empty)
     names = {**WINDOWS, **DIFFERENCES}
     windows = [window for window in names if (own["window"] == window).any()]
@@ -620,7 +620,7 @@ def draw_generalisation(points: pd.DataFrame, *, size: str = "one column", heigh
 def _of_session(data: Data, session: str, measures: list[str]) -> pd.DataFrame:
     """The trials of a session of a study, or all, from the first to the last in which a measure was taken.
 
-    Rounds are not told apart. Trials keep their numbers.
+    Rounds are not distinguished. Trials keep their numbers.
     """
     trials = data.table("trials")
     if session:
@@ -691,7 +691,7 @@ def plans(data: Data) -> Iterator[Plan]:
 
 
 def _quantity(data: Data, unit: str) -> str:
-    """What compensation is in the rounds with this unit: the label of its axis."""
+    """The label of the axis of compensation, for the rounds with this unit."""
     if not data.has("fits"):
         return label("compensation", unit)
     fits = data.table("fits")
@@ -710,11 +710,11 @@ def _left_out(table: pd.DataFrame, panels: int) -> str:
 def _too_many(data: Data) -> str:
     """A sentence for the caption if groups have no colours."""
     groups = data.table("trials")["group"].nunique()
-    return f" The {groups} groups are not told apart." if groups > _MOST_GROUPS else ""
+    return f" The {groups} groups are not distinguished." if groups > _MOST_GROUPS else ""
 
 
 def _lines_in_words(table: pd.DataFrame, width: int) -> str:
-    """What lines and dots of a course are."""
+    """The meaning of the lines and dots of a course, for a caption."""
     counts = table.groupby("group")["person"].nunique()
     groups = len(counts)
     if table["person"].nunique() == 1:

@@ -21,21 +21,21 @@ from .words import counted, label, level
 
 Array = npt.NDArray[Any]
 
-#: Above these figures on the page of a report.
+#: Heading above these figures in a report.
 HEADING = "Grip and lift"
-#: Most conditions of a panel, most panels side by side, and most conditions below each other.
+#: Maximum numbers of conditions in a panel, of panels side by side, and of conditions one below another.
 _MOST_CASES, _MOST_PANELS, _MOST_ROWS = 6, 4, 24
-#: Loads below this are no load: the ratio of grip and load is not drawn there [N].
+#: Loads below this are treated as no load: the ratio of grip and load is not drawn there [N].
 LEAST_LOAD = 0.2
-#: What a figure of courses shows, from above, and its units.
+#: Quantities in a figure of courses, from top to bottom, and their units.
 QUANTITIES = {"grip force": "N", "load force": "N", "grip / load": "", "height": "mm"}
 #: Moments of a lift to which courses are aligned: columns of lifts.csv without "_s".
 MOMENTS = {"lift_off": "lift-off", "load_onset": "load onset", "touch": "touch"}
 #: Phases of a lift, and their columns of lifts.csv.
 PHASES = {"preload": "preload_s", "loading": "loading_s", "releasing": "releasing_s"}
-#: How far grip against load is followed after lift-off [s].
+#: Time after lift-off up to which grip against load is drawn [s].
 _AFTER_LIFT_OFF = 1.0
-#: Where the axis of the ratio ends, in 90th percentiles of the ratio.
+#: End of the ratio's axis, as a multiple of the ratio's 90th percentile.
 _RATIO_AXIS = 1.6
 _DASHES: list[Any] = ["-", (0, (5, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1.5, 1.5)), (0, (3, 1)), (0, (6, 1.5, 1.5, 1.5, 1.5, 1.5))]
 #: Conditions that are named after a colour are drawn in it.
@@ -117,7 +117,7 @@ def _levels(data: Data, column: str, found: list[Any]) -> list[Any]:
 
 
 def _named(data: Data, frame: pd.DataFrame, colour: list[str], panel: str, most: int = _MOST_CASES) -> pd.DataFrame:
-    """The lifts with their condition and panel in words, those over the cap left out, ordered by condition and panel."""
+    """The lifts with their condition and panel in words, those beyond the maximum left out, ordered by condition and panel."""
     units = data.table("trials").attrs.get("units", {})
     for column in [*colour, *([panel] if panel else [])]:
         if column not in frame:
@@ -194,7 +194,7 @@ def _quartiles(rows: Array) -> Array:
     out = np.full((3, rows.shape[1]), np.nan)
     known = np.isfinite(rows).sum(axis=0)
     enough = np.flatnonzero((known > 0) & (2 * known >= len(rows)))
-    ordered = np.sort(rows, axis=0)  # what is not known comes last; much faster than nanpercentile
+    ordered = np.sort(rows, axis=0)  # unknown values come last; much faster than nanpercentile
     for i, share in enumerate((0.25, 0.5, 0.75)):
         place = share * (known[enough] - 1)
         below = np.floor(place).astype(int)
@@ -229,7 +229,8 @@ def lift_curves(
     trials of a block), `panel` is one whose levels get their own panels. `align` is lift_off, load_onset or touch; the
     curves go from `before` to `after` that moment [s], every `step` [s]. A row is a time: `median`, and the quartiles `low`
     and `high`, over a person's lifts, or over several people's medians. Grip over load is left out where the load is less
-    than 0.2 N. A value needs half of the lifts. Only complete lifts count; catch trials with `catch`. Raises NotThere, Error.
+    than 0.2 N. A value needs half of the lifts. Only complete lifts are included, and catch trials only with `catch`. Raises
+    NotThere, Error.
 
     >>> from dihaptic import figures
     >>> points = lift_curves(figures.read(lift_session))
@@ -299,7 +300,7 @@ def draw_lift_curves(
 
 
 def _limit_ratio(axes: Axes, points: pd.DataFrame) -> None:
-    """Ends the axis of the ratio above nearly all of it: where the load dips for a moment, the ratio shoots up."""
+    """Ends the axis of the ratio above nearly all values: where the load dips for a moment, the ratio shoots up."""
     ratios = points["median"].dropna()
     most = _RATIO_AXIS * float(ratios.quantile(0.9))
     axes.set_ylim(0, most if ratios.max() > most > 0 else max(1.05 * float(ratios.max()), 1e-9))
@@ -353,7 +354,7 @@ def grip_against_load(
 def _slip_ratio(lifts: pd.DataFrame) -> float:
     """The ratio of grip and load at which the object slips, NaN unless it is the same in all lifts.
 
-    The safety margin is (static grip - least grip) / static grip, so that least grip over load is a figure of the friction.
+    The safety margin is (static grip - least grip) / static grip, so that least grip over load depends only on the friction.
     """
     ratios = ((1 - lifts["safety_margin"]) * lifts["static_ratio"]).dropna()
     if ratios.empty or ratios.max() - ratios.min() > 0.01 * ratios.median():
@@ -424,7 +425,7 @@ def successive_lifts(
     The lifts are numbered through the session, practice and incomplete ones included; or, with `repetition`, the complete
     ones of each condition without practice. A row has the measure, its unit, block, condition, number of the lift, and `of`:
     "person", or, with several people, "mean", over n people, if these are at least three quarters of all
-    (and this is so at half of the numbers of a condition). For the other options see lift_curves(). Raises NotThere.
+    (and this holds for at least half of a condition's numbers). For the other options see lift_curves(). Raises NotThere.
 
     >>> from dihaptic import figures
     >>> len(successive_lifts(figures.read(lift_session), measures=["safety_margin"]))
@@ -445,7 +446,7 @@ def successive_lifts(
         each = known[["block", "condition", "person", "number", "value"]].assign(of="person", n=1)
         by = ["block", "condition", "number"]
         mean = each.groupby(by, sort=False)["value"].agg(value="mean", n="count").reset_index().assign(of="mean", person="")
-        # a mean over other people at each lift would show their differences, as if they were change
+        # means over different people at each lift would show differences between people as if they were changes
         enough = 4 * mean["n"] >= 3 * people
         common = enough.groupby([mean["block"], mean["condition"]]).transform("mean") >= 0.5
         mean = mean[enough & common]
@@ -609,7 +610,7 @@ def draw_lift_phases(
     return figure
 
 
-# What all of them share
+# Shared by all figures
 
 
 def _shortened(text: str, most: int = 34) -> str:
@@ -630,7 +631,7 @@ def _known(points: pd.DataFrame, value: str) -> pd.DataFrame:
 
 
 def _texts(points: pd.DataFrame, column: str) -> list[str]:
-    """The different texts of a column, in their order; a table that was read from CSV has none as NaN."""
+    """The different texts of a column, in their order; in a table read from CSV, an empty text is NaN."""
     return [str(text) for text in dict.fromkeys(points[column].fillna(""))]
 
 
@@ -674,13 +675,13 @@ def _legend(
 
 
 def _factors(data: Data, frame: pd.DataFrame) -> list[str]:
-    """Factors of the design whose level differs between lifts; numbers that hardly ever come twice are no levels."""
+    """Factors of the design whose level differs between lifts; numbers that are rarely repeated are not levels."""
     names = [name for name in ["group", *data.factors] if name in frame]
     return [name for name in names if 1 < frame[name].nunique() <= max(2, len(frame) / 2)]
 
 
 def _design(data: Data, frame: pd.DataFrame) -> tuple[list[str], str]:
-    """Which columns are told apart by colours, and which one by panels."""
+    """Which columns colours stand for, and which one panels stand for."""
     factors = _factors(data, frame)
     if not factors:
         if frame["presented"].nunique() < 2:
@@ -710,7 +711,7 @@ def plans(data: Data) -> Iterator[Plan]:
     frame = _all_lifts(data)
     kept = _counting(frame, catch)
     if kept.empty or 4 * len(kept) < len(frame[~frame["kind"].isin(ASIDE)]):
-        return  # of another task: objects that are pushed, or carried from the start
+        return  # another kind of task: objects that are pushed, or carried from the start
     colour, panel = _design(data, kept)
     options: dict[str, Any] = {**({"colour": colour} if colour else {}), **({"catch": True} if catch else {})}
     legend = " and ".join(_word(column) for column in colour if column != "presented")
@@ -750,7 +751,7 @@ def _plans_of_courses(data: Data, options: dict[str, Any], panel: str, legend: s
     yield Plan(
         name="lift-curves", title="Grip, load and height about lift-off",
         caption=f"Grip force (mean of the digits), load force (their sum), grip over load where the load exceeds {LEAST_LOAD} N "
-        f"(its axis ends at {_RATIO_AXIS} times the 90th percentile, if more is rare), "
+        f"(its axis ends at {_RATIO_AXIS} times the 90th percentile, if larger values are rare), "
         f"and the object's height above its place at touch. Lines: {shown}. {counts}",
         points=lift_curves, points_options={**options, **where}, drawing=draw_lift_curves, drawing_options=drawing,
     )  # fmt: skip
@@ -770,13 +771,13 @@ def _plans_of_courses(data: Data, options: dict[str, Any], panel: str, legend: s
 def _plans_of_change(data: Data, frame: pd.DataFrame, options: dict[str, Any], panel: str, catch: bool) -> Iterator[Plan]:
     """The figure of change over lifts, where each person lifts often enough."""
     complete = frame[frame["lift"] == "complete"]
-    wanted = ["safety_margin", "peak_grip_rate_N_s", *(["peak_load_rate_N_s"] if catch else [])]  # the weight expected
+    wanted = ["safety_margin", "peak_grip_rate_N_s", *(["peak_load_rate_N_s"] if catch else [])]  # expected weight
     known = [name for name in wanted if complete[name].notna().any()]
     if not known or complete.groupby("person").size().median() < 8 or not data.task:
         return
     colour = options.get("colour", [])
     if panel in _factors(data, frame) and _is_surface(complete, panel):
-        colour = [panel]  # it tells more about grip than a weight that nobody can foresee
+        colour = [panel]  # a surface says more about grip than a weight that nobody can foresee
     if frame["group"].nunique() > 1:
         colour = ["group"]
     orders = complete.assign(case=complete[["block", *colour]].astype(str).agg("/".join, axis=1)).groupby("lift_number")["case"]
@@ -801,13 +802,13 @@ def _plans_of_change(data: Data, frame: pd.DataFrame, options: dict[str, Any], p
 
 
 def _is_surface(lifts: pd.DataFrame, factor: str) -> bool:
-    """Whether the friction depends on this factor, and on no other."""
+    """Whether the friction depends on this factor, and on no other one."""
     ratios = [_slip_ratio(own) for _, own in lifts.groupby(factor)]
     return bool(np.isfinite(ratios).all() and len(ratios) > 1 and max(ratios) > 1.01 * min(ratios))
 
 
 def _word(column: str) -> str:
-    """A factor in words, its unit left out: the levels have it."""
+    """A factor in words, without its unit, which is shown with the levels."""
     return label(column).removesuffix(" g").removesuffix(" N").removesuffix(" mm").removesuffix(" ms")
 
 
@@ -844,18 +845,18 @@ def _left_out(data: Data, kept: pd.DataFrame, shown: pd.DataFrame, colour: list[
     return text
 
 
-# The weight of the lift before
+# The weight of the previous lift
 
-#: Fewest pairs of complete lifts, and least ratio of weights, from which the effect of the weight before is told.
+#: Minimum number of pairs of complete lifts, and minimum ratio of weights, to estimate the effect of the previous weight.
 _LEAST_PAIRS, _LEAST_RATIO = 10, 1.05
 
 
 def previous_weight(data: Data) -> pd.DataFrame:
-    """What the weight of the lift before does to a lift (Johansson and Westling 1988), of each person.
+    """The effect of the previous weight on a lift (Johansson and Westling 1988), for each person.
 
     The regression is rate = a + b W + c W_before, of the largest rate of load force before lift-off on the weights held,
     over consecutive complete lifts of a session. A row has the group, the person, `effect` (c, in N/s for each N), its standard
-    `error`, `share` (c / (b + c): 0 if only this weight counts, 1 if only the one before does), and `n` pairs of lifts.
+    `error`, `share` (c / (b + c): 0 if only this weight matters, 1 if only the previous one does), and `n` pairs of lifts.
     People whose weights vary by less than 5 %, or with fewer than ten pairs, have no row.
 
     >>> from dihaptic import figures

@@ -9,19 +9,19 @@ import pandas as pd
 from scipy import special
 
 
-#: How intervals are made, in captions.
+#: How intervals were computed, in captions.
 BY_T = " (Student's t)"
 
 
 def intervals(counts: pd.Series, how: str = "") -> str:
-    """What a caption says of the intervals of means over so many values each: there is none where a mean is of one value.
+    """Words for a caption on the intervals of means over so many values each: the mean of one value has no interval.
 
     >>> intervals(pd.Series([4, 4])), intervals(pd.Series([4, 1])), intervals(pd.Series([1, 1]))
-    (' with 95 % intervals', ' with 95 % intervals where they are over several', ' (of one each, so that there is no interval)')
+    (' with 95 % intervals', ' with 95 % intervals where they are over several', ' (of one value each, so there is no interval)')
     """
     several = counts[counts > 0] > 1
     if not several.any():
-        return " (of one each, so that there is no interval)"
+        return " (of one value each, so there is no interval)"
     return f" with 95 % intervals{how}{'' if several.all() else ' where they are over several'}"
 
 

@@ -28,23 +28,23 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[np.float64]
 
-#: Above these figures on the page of a report.
+#: Heading above these figures in a report.
 HEADING = "Movements"
-#: Kinds of trials whose reaches are drawn: those of others are held or shown on a line, or not of the design.
+#: Kinds of trials whose reaches are drawn; in others, reaches are held or shown on a line, or not part of the design.
 _SHOWN = ["baseline", "perturbed", "washout"]
-#: Reaches at the begin and at the end of a block that show what is learned in it.
+#: Number of reaches at the beginning, and at the end, of a block that show what is learned in it.
 _FEW = 8
-#: Most panels of a figure, and most conditions that colours tell apart.
+#: Maximum numbers of panels in a figure, and of conditions with colours of their own.
 _MOST_PANELS = 12
 _MOST_COLOURS = 7
-#: Most paths in a panel: more hide each other.
+#: Maximum number of paths in a panel: more would hide each other.
 _MOST_PATHS = 40
 #: Time between points of a curve [s], and time drawn before onset [s].
 _STEP = 0.005
 _BEFORE = 0.1
 #: Share of reaches that must last for a median: with fewer, it would jump where one of few reaches ends.
 _LASTING = 0.75
-#: A shorter way is no reach [m].
+#: A movement over a shorter distance is not a reach [m].
 _LEAST_WAY = 0.02
 #: Slower movement is tremor (docs/measures-of-behaviour.md) [m/s].
 _LEAST_PEAK = 0.05
@@ -58,7 +58,7 @@ _DASHES: list[Any] = ["-", (0, (5, 1.5)), (0, (1.2, 1)), (0, (5, 1.2, 1.2, 1.2))
 
 @dataclass(frozen=True)
 class _Reach:
-    """A reach: of the last attempt at a trial, from the begin of the state in which it is made to the state that ends it."""
+    """A reach: of the last attempt at a trial, from the start of the state in which it is made to the state that ends it."""
 
     person: str
     group: str
@@ -72,12 +72,12 @@ class _Reach:
     target: Array
     start_radius: float  #: [m]; NaN: not known
     target_radius: float
-    axis: Array  #: from whose tip left and right of the way are told
-    path: Array  #: each 5 ms: x, y, z [m]
+    axis: Array  #: left and right of the path are as seen from its tip
+    path: Array  #: every 5 ms: x, y, z [m]
     begins: float = math.nan  #: time of the first value of `speed`, from onset [s]; NaN: no onset was found
-    speed: Array = field(default_factory=lambda: np.empty(0))  #: each 5 ms, one of them at onset [m/s]
-    force: Array | None = None  #: of the hand on a channel, to the left, at the times of `speed` [N]; None: no channel
-    ideal: Array | None = None  #: what would cancel the field that is learned [N]
+    speed: Array = field(default_factory=lambda: np.empty(0))  #: every 5 ms, one value at onset [m/s]
+    force: Array | None = None  #: force of the hand on a channel, to the left, at the times of `speed` [N]; None: no channel
+    ideal: Array | None = None  #: force that would cancel the field that is learned [N]
 
 
 def _reaches(data: Data) -> list[_Reach]:
@@ -104,7 +104,7 @@ class _Reader:
         self.of_reach = bool(measured)
         self.rule: dict[str, Any] = measured or self.movement
         self.during = _words_in(self.rule.get("during"))
-        self.shown: tuple[Any, ...] | None = None  # balls: times, regions, radii
+        self.shown: tuple[Any, ...] | None = None  # times, regions and radii of the balls
 
     def reaches(self) -> list[_Reach]:
         prefix = "reach" if self.of_reach else "movement"
@@ -129,7 +129,7 @@ class _Reader:
         return [reach for reach in made if reach is not None]
 
     def _moving(self, of: str) -> list[str]:
-        """The recorded points that move, as the begin of a quantity's name, such as "index.handle_"; several are averaged."""
+        """The recorded points that move, as the beginning of a quantity's name, such as "index.handle_"; several are averaged."""
         fingers = self.session.fingers
         points = [f"{name}.handle_" for name in fingers if of in (name, "hand")]
         points = [f"{of}."] if of in self.session.bodies else points
@@ -223,7 +223,7 @@ class _Reader:
         return {"force": -(self.sent[part] @ left)[each], "ideal": -(velocity @ field_of.T @ left)[each]}
 
     def _radius(self, end: str, condition: str, tick: int) -> float:
-        """Radius of a region [m]: of the task, or that of the ball which is shown there; NaN if neither is known."""
+        """Radius of a region [m]: from the task or from the ball shown there; NaN if neither is known."""
         name = str(self.rule.get(end, self.movement.get(end, "")))
         regions = self.task.get("regions") or []
         changed = [own for own in self.task.get("conditions") or [] if str(own.get("name")) == condition]
@@ -311,9 +311,9 @@ def _first_stroke(speed: list[float]) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class _Sheet:
-    """The reaches of one figure: by panel."""
+    """The reaches of one figure, by panel."""
 
-    name: str  #: for its file; "" for the only one
+    name: str  #: for the name of its file; "" if it is the only figure
     title: str
     panels: dict[str, list[_Reach]]
 
@@ -322,7 +322,7 @@ def _sheets(data: Data) -> list[_Sheet]:
     """The figures of an experiment, and the panels of each: rounds and groups, or stages of learning in each of them."""
     rounds = [str(own.get("name")) for own in data.task.get("rounds") or []]
     shown = [reach for reach in _reaches(data) if reach.kind in _SHOWN or not reach.kind]
-    # each person may have them in another order
+    # the order of rounds may differ between people
     shown.sort(key=lambda reach: (reach.group, rounds.index(reach.round) if reach.round in rounds else -1))
     parts: dict[str, list[_Reach]] = {}
     for reach in shown:
@@ -336,7 +336,7 @@ def _sheets(data: Data) -> list[_Sheet]:
 
 
 def _parts_of(name: str, panels: dict[str, list[_Reach]]) -> Iterator[_Sheet]:
-    """Figures with these panels, each with so many as a page has room for."""
+    """Figures with these panels, each with as many as a page has room for."""
     names = list(panels)
     for first in range(0, len(names), _MOST_PANELS):
         number = str(first // _MOST_PANELS + 1) if len(names) > _MOST_PANELS else ""
@@ -346,7 +346,7 @@ def _parts_of(name: str, panels: dict[str, list[_Reach]]) -> Iterator[_Sheet]:
 
 
 def _stages(reaches: list[_Reach]) -> dict[str, list[_Reach]]:
-    """Blocks: of perturbed ones the first and last reaches, of those after them the first ones."""
+    """Blocks: the first and last reaches of perturbed blocks, and the first reaches of the blocks after them."""
     blocks: dict[str, list[_Reach]] = {}
     for reach in sorted(reaches, key=lambda reach: reach.trial_num):
         blocks.setdefault(reach.block, []).append(reach)
@@ -395,7 +395,7 @@ def _sheet(data: Data, name: str) -> _Sheet:
 
 
 def _colours_of(data: Data, reaches: list[_Reach], of_speed: bool = False) -> dict[str, list[_Reach]]:
-    """Reaches by what their colours stand for: conditions; of too many, the target, or, of speed, its distance."""
+    """Reaches by what colours stand for: conditions; if there are too many, the target or, for speed, its distance."""
     names = list(dict.fromkeys(reach.condition for reach in reaches))
     known = [name for name in data.conditions if name in names]
     order = [*known, *sorted((name for name in names if name not in known), key=_by_number)]
@@ -415,7 +415,7 @@ def _colours_of(data: Data, reaches: list[_Reach], of_speed: bool = False) -> di
 
 
 def _by_number(name: str) -> tuple[list[float], str]:
-    """Order of names with numbers in them."""
+    """Sort key of names that contain numbers."""
     return [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", name)], name
 
 
@@ -425,7 +425,7 @@ def _by_number(name: str) -> tuple[list[float], str]:
 def _plane(reaches: list[_Reach]) -> tuple[Array, Array]:
     """Unit vectors to the right and upward in the plane that is drawn.
 
-    That is the plane across the axis about which angles and sides are told, unless the way to a target is almost along
+    That is the plane across the axis about which angles and sides are defined, unless the way to a target is almost along
     that axis; otherwise the two of x, y and z along which the hand went farthest.
     """
     axes = np.array([reach.axis for reach in reaches])
@@ -434,7 +434,7 @@ def _plane(reaches: list[_Reach]) -> tuple[Array, Array]:
     across = np.abs(ways @ normal) / np.linalg.norm(ways, axis=1)
     if not (np.isfinite(axes).all() and np.ptp(axes, axis=0).max() < 1e-6 and (across < 0.9).all()):
         extents = np.median([np.ptp(reach.path, axis=0) for reach in reaches], axis=0)
-        # the plane of x and y, seen from above, if both others are alike
+        # if two extents are equal, rather the plane of x and y, seen from above
         normal = np.eye(3)[2 - int(np.argmin(extents[::-1]))]
     if abs(normal[2]) > 0.95:
         return np.array([1.0, 0, 0]), np.array([0, 1.0, 0])
@@ -464,9 +464,9 @@ def reach_paths(data: Data, *, part: str = "", most: int = _MOST_PATHS) -> pd.Da
     """Paths of reaches in the plane in which they are drawn, from recordings: a row for each point, 5 ms apart.
 
     `part`: of an experiment with several figures, the one that is drawn; `most`: paths in a panel. Columns: `panel`,
-    `colour` (the condition; of more than seven, the way to the target: x y z in mm), `of` ("path", "start" or
-    "target"), `person`, `session`, `trial_num`, `time_s` from the begin of the state, `across_mm` and `up_mm`, and
-    `radius_mm` of starts and targets (NaN: not known). A path is that of the last attempt at a trial, from the begin of
+    `colour` (the condition; of more than seven, the vector to the target: x y z in mm), `of` ("path", "start" or
+    "target"), `person`, `session`, `trial_num`, `time_s` from the start of the state, `across_mm` and `up_mm`, and
+    `radius_mm` of starts and targets (NaN: not known). A path is that of the last attempt at a trial, from the start of
     the state in which the reach is made to the state that ends it. Raises NotThere, or Error without such recordings.
 
     `python/dihaptic/figures/paths.py` says which plane is drawn. A rehearsal has recordings only if it is made by
@@ -516,7 +516,7 @@ def draw_reach_paths(
     """Draws reach_paths() to scale: thin lines with a mark at their ends, circles where they start and where targets are.
 
     `across` and `up` say in words where right and top of the page are; `bar_mm` is the length of the scale bar;
-    `height_mm` is the most that a row of panels takes. Limits are the same in all panels.
+    `height_mm` is the maximum height of a row of panels. Limits are the same in all panels.
     """
     if points.empty:
         raise error("has no path", "Draw a table of reach_paths() with rows.", key="points")
@@ -555,7 +555,7 @@ def draw_reach_paths(
 
 
 def _with_names(points: pd.DataFrame) -> pd.DataFrame:
-    """The points, in which the only panel and colour have an empty name: a CSV file does not tell it from a missing one."""
+    """The points, with an empty name for the only panel or colour, since a CSV file cannot tell it from a missing one."""
     return points.assign(colour=points["colour"].fillna("").astype(str), panel=points["panel"].fillna("").astype(str))
 
 
@@ -592,7 +592,7 @@ def _box(points: pd.DataFrame) -> tuple[Array, Array]:
     low, high = np.nanmin(places - radius, axis=0), np.nanmax(places + radius, axis=0)
     widest = float((high - low).max()) or 1.0
     middle = (low + high) / 2
-    # a straight way is no line of the page, but has room at its sides
+    # leaves room beside a straight path, whose panel would otherwise have no width
     half = np.maximum((high - low) / 2 + 0.03 * widest, 0.15 * widest)
     low, high = middle - half, middle + half
     low[1] -= 0.13 * widest
@@ -600,7 +600,7 @@ def _box(points: pd.DataFrame) -> tuple[Array, Array]:
 
 
 def _columns(panels: int, extent: Array, size: str, height_mm: float) -> int:
-    """So many panels in a row that they have about the largest height, and that rows are filled evenly."""
+    """Number of panels in a row with which they have about the largest height, and that rows are filled evenly."""
     narrow = height_mm * extent[0] / extent[1]
     fit = max(1, min(int((WIDTHS[size] - 8) / max(narrow, 30)), 6))
     fit = max(fit, min(panels, 4 if size == "two columns" else 2))
@@ -642,11 +642,11 @@ def _scale_bar(axes: Axes, bar_mm: float, low: Array, high: Array) -> None:
 
 @of_data
 def speed_profiles(data: Data, *, part: str = "") -> pd.DataFrame:
-    """Speed against time from movement onset, from recordings: median and quartiles over reaches, each 5 ms.
+    """Speed against time from movement onset, from recordings: median and quartiles over reaches, every 5 ms.
 
     `part`: of an experiment with several figures, the one that is drawn. Columns: `panel`, `colour` (the condition; of
     more than seven, the distance of the target), `time_s`, `n` reaches of `of_n`, and `median_m_s`, `lower_m_s` and
-    `upper_m_s`. Onset is that of docs/measures-of-behaviour.md; a time counts while at least three quarters of them last.
+    `upper_m_s`. Onset is that of docs/measures-of-behaviour.md; a time is included while three quarters of the reaches last.
     Raises NotThere, or Error without such recordings.
 
     A rehearsal has recordings only if it is made by `dh.rehearse(..., keep_recordings=True)`.
@@ -763,7 +763,7 @@ def _channel_stages(data: Data) -> dict[str, list[_Reach]]:
 
 @of_data
 def channel_forces(data: Data) -> pd.DataFrame:
-    """Force of the hand on channels and the ideal force against time from movement onset: median and quartiles, each 5 ms.
+    """Force of the hand on channels and the ideal force against time from movement onset: median and quartiles, every 5 ms.
 
     The ideal force would cancel the field that is learned at the speed that the hand had in the channel
     (docs/measures-of-behaviour.md). Columns: `panel` (block; of perturbed ones, its first and last channels), `force`
@@ -877,7 +877,7 @@ def _plan_of_speed(data: Data, sheet: _Sheet) -> Plan:
     caption += ", with bands from quartile to quartile" if len(colours) <= 4 else ""
     caption += ", while at least three quarters of them last."
     if without:
-        caption += f" {counted(without, 'reach', 'reaches')} without an onset {'is' if without == 1 else 'are'} not in it."
+        caption += f" {counted(without, 'reach', 'reaches')} without an onset {'is' if without == 1 else 'are'} left out."
     return Plan(
         name="-".join(word for word in ("reach-speed", sheet.name) if word),
         title="Speed of reaches" + (f": {sheet.title}" if sheet.title else ""),

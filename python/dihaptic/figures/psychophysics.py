@@ -22,13 +22,13 @@ from .saving import Plan
 from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, fit_names, legend_above, of_data, wrapped
 from .words import counted, in_print, label, level, words_of
 
-#: Above these figures on the page of a report.
+#: Heading above these figures in a report.
 HEADING = "Thresholds"
-#: Most panels of a figure, and most lines that colours tell apart.
+#: Maximum numbers of panels in a figure, and of lines with colours of their own.
 _MOST_PANELS, _MOST_COLOURS = 9, 7
-#: Least answers at a level for which an interval is drawn: with fewer, it takes up the panel and says nothing.
+#: Minimum number of answers at a level for an interval: with fewer, it would fill the panel and say nothing.
 _LEAST_ANSWERS = 5
-#: An outcome is frequent if it ended at least this share of the trials that count.
+#: An outcome is frequent if it ended at least this share of the included trials.
 _FREQUENT = 0.05
 _ALL = "all of these"  # kind of a fit to the answers of several procedures
 _OUTSIDE = "outside of the levels"  # beginning of the note on a threshold that is a guess
@@ -85,11 +85,11 @@ class _Procedure:
 
     name: str
     parts: tuple[str, ...]  # names of the procedures
-    sitting: str  # session of a study; ""
+    sitting: str  # session of a study; "" if there is none
     kind: str
-    quantity: str  # what it chooses, in words
-    unit: str  # of its levels; "" for shares
-    column: str  # of trials.csv, with its levels
+    quantity: str  # the quantity that it chooses, in words
+    unit: str  # unit of its levels; "" for shares
+    column: str  # column of trials.csv with its levels
     logarithmic: bool
     yes: str
     no: str
@@ -97,16 +97,16 @@ class _Procedure:
     guess: float
     guess_is_lapse: bool
     standard: float
-    skipped: int  # first reversals of a staircase, which do not count
+    skipped: int  # number of first reversals of a staircase to ignore
 
     @property
     def title(self) -> str:
-        """Its name in a figure."""
+        """The procedure's name in a figure."""
         name = f"{self.name}, together" if self.kind == _ALL else self.name
         return f"{self.sitting}: {name}" if self.sitting else name
 
     def panel(self) -> dict[str, Any]:
-        """What a drawing has to know of it."""
+        """The procedure's properties that a drawing needs."""
         return {
             "procedure": self.title, "kind": self.kind, "quantity": self.quantity, "unit": self.unit,
             "logarithmic": self.logarithmic, "yes": self.yes,
@@ -122,7 +122,7 @@ def _text(value: Any) -> str:
 
 
 def _sitting_of(session: Any) -> str:
-    """The session of a study that a session is."""
+    """The name that a session has in its study; "" without a study."""
     return str((session.info.get("in_study") or {}).get("session", "") or "")
 
 
@@ -179,7 +179,7 @@ def _joint(data: Data, single: list[_Procedure]) -> list[_Procedure]:
 
 
 def _parts(name: str, candidates: list[_Procedure]) -> list[_Procedure]:
-    """Those of the candidates whose names, joined by commas in their order, are `name`; [] if none are."""
+    """Those of the candidates whose names, joined by commas in their order, are `name`; [] if there are none."""
     for i, each in enumerate(candidates):
         if name == each.name:
             return [each]
@@ -221,7 +221,7 @@ def _fits(data: Data, procedure: _Procedure) -> pd.DataFrame:
         return pd.DataFrame(columns=["person", "group", "outside"])
     table = _of_sitting(data.table("thresholds"), procedure)
     table = table[(table["procedure"].astype(str) == procedure.name) & ((table["kind"] == _ALL) == (procedure.kind == _ALL))]
-    # a report made anew is the only one of its session
+    # only the latest report of a session is used
     table = table.drop_duplicates(sitting_columns(table), keep="last")
     table = table[table["threshold"].notna() & (table["shape"] > 0)]
     return table.assign(outside=table["note"].fillna("").astype(str).str.startswith(_OUTSIDE))
@@ -387,7 +387,7 @@ def draw_psychometric_functions(
     figure, panels = _panels(points, size, height_mm)
     largest = points.loc[points["of"] == "level", "n"].max()
     shares = pd.concat([points["value"], points.loc[points["of"] == "level", "low"]])
-    lowest = 0.5 if shares.min() >= 0.48 else 0  # a forced choice has no less
+    lowest = 0.5 if shares.min() >= 0.48 else 0  # in a forced choice, shares are hardly below 0.5
     for axes, own in panels:
         _quiet_lines(axes, own)
         for i, group in enumerate(groups):
@@ -486,7 +486,7 @@ def _panels(points: pd.DataFrame, size: str, height_mm: float) -> tuple[Figure, 
     names = list(dict.fromkeys(points["procedure"]))
     columns = _columns(len(names), size)
     rows = -(-len(names) // columns)
-    # names and a legend take more of a figure with one row
+    # names and a legend take a larger part of a figure with one row
     figure, all_axes = canvas(size, height_mm * rows + 8, rows, columns)
     for axes in all_axes[len(names) :]:
         axes.set_visible(False)
@@ -550,14 +550,14 @@ def _log_ticks(axis: Any, low: float, high: float) -> None:
 
 
 def _quantity(own: pd.DataFrame) -> str:
-    """What a panel's levels are, with their unit."""
+    """The quantity of a panel's levels, with its unit."""
     row = own.iloc[0]
     unit = _text(row["unit"])
     return f"{row['quantity']} [{in_print(unit)}]" if unit and unit != "1" else str(row["quantity"])
 
 
 def _label_all(panels: list[tuple[Axes, pd.DataFrame]], *, x: str | None, y: str | None, size: str) -> None:
-    """Labels of all panels; None: what the levels are. A label that is that of the panel to the left is not repeated."""
+    """Labels of all panels; None: the quantity of the levels. A label equal to that of the panel to the left is not repeated."""
     columns = _columns(len(panels), size)
     width = WIDTHS[size] / columns
     for i, (axes, own) in enumerate(panels):
@@ -688,7 +688,7 @@ def procedure_courses(data: Data, *, procedures: list[str] | None = None) -> pd.
     """The levels that procedures chose, answer after answer.
 
     A row has its procedure, and `of`: "answer", with its number from 1, its trial, its level and whether it was yes;
-    "reversal" of a staircase that counts, at the last answer before the direction changed; "mean" level of n people at an
+    "reversal" of a staircase, if not ignored, at the last answer before the direction changed; "mean" level of n people at an
     answer, as long as all of them answer, three times at least (the geometric mean, where `logarithmic`); "threshold", of
     the fitted function or, of several people, the mean of theirs; those outside of the levels shown are left out.
     Procedures with constant levels have no course. Raises NotThere, or Error when there are no answers.
@@ -728,7 +728,7 @@ def procedure_courses(data: Data, *, procedures: list[str] | None = None) -> pd.
 
 
 def _reversals(levels: pd.Series, procedure: _Procedure) -> list[int]:
-    """Places of the answers after which a staircase changed its direction, the first ones, which do not count, left out."""
+    """Places of the answers after which a staircase changed its direction, without the first ones, which are ignored."""
     out: list[int] = []
     way = 0
     if procedure.kind != "staircase":
@@ -755,7 +755,7 @@ def _mean_course(answers: pd.DataFrame, logarithmic: bool) -> Iterator[dict[str,
 
 @drawing
 def draw_procedure_courses(points: pd.DataFrame, *, size: str = "one column", height_mm: float = 45) -> Figure:
-    """Draws procedure_courses(): a panel for each procedure. Of one person, yes is filled, no is hollow, reversals are ringed.
+    """Draws procedure_courses(): a panel for each procedure. For one person, yes is filled, no is hollow, reversals are ringed.
 
     `height_mm` is that of a row of panels.
 
@@ -841,7 +841,7 @@ def answers_by_level(
 ) -> pd.DataFrame:
     """The share of one of two outcomes at each level of a numeric column, of trials without a procedure.
 
-    `x`, and the columns `series`, whose levels are told apart, are columns of trials.csv; `answer` is the outcome whose
+    `x`, and the columns `series`, whose levels are distinguished, are columns of trials.csv; `answer` is the outcome whose
     share `value` is, out of n trials that had it or `other`. `side`: a column that says on which side the comparison was
     (left or -1, right or 1); then `answer` and `other` are the outcomes that name the left and the right side, and the
     share is that of answers that name the comparison. A row is `of` "person", with Wilson's 95 % interval if there is but
@@ -855,12 +855,12 @@ def answers_by_level(
     """
     trials = counting_trials(data)
     for column in [x, *(series or []), *([side] if side else [])]:
-        data.measure(column)  # raises for a name that is not there
+        data.measure(column)  # raises NotThere for an unknown name
     own = trials[trials["outcome"].isin([answer, other]) & trials[x].notna()].copy()
     if "procedure" in own:
         own = own[own["procedure"].isna()]
     if own.empty:
-        raise error("has no such outcomes in a trial that counts", "Name two outcomes of its task.", key=f"{answer}, {other}")
+        raise error("has no such outcomes in the included trials", "Name two outcomes of its task.", key=f"{answer}, {other}")
     own["hit"] = (own["outcome"] == answer).astype(float)
     if side:
         own["hit"] = ((own["outcome"] == answer) == (own[side].map(_side) == "left")).astype(float)
@@ -990,7 +990,7 @@ def plans(data: Data) -> Iterator[Plan]:
 
 
 def _parted(name: str, procedures: list[_Procedure]) -> Iterator[tuple[str, list[_Procedure]]]:
-    """Names of figures, with the procedures of each: no more than there is place for."""
+    """Names of figures, with the procedures of each: as many as there is room for."""
     figures = -(-len(procedures) // _MOST_PANELS)
     each = -(-len(procedures) // max(1, figures))  # about as many in each
     for first in range(0, len(procedures), max(1, each)):
@@ -1107,7 +1107,7 @@ def _plans_of_courses(data: Data, procedures: list[_Procedure]) -> Iterator[Plan
         fits = any((~_fits(data, each)["outside"].astype(bool)).any() for each in some)
         if single:
             what = f"Levels in the order of answers; filled: yes{_meaning(some)}, hollow: no."
-            what += " Rings are reversals that count." * any(each.kind == "staircase" for each in some)
+            what += " Rings are reversals that are averaged." * any(each.kind == "staircase" for each in some)
             what += " Dashed: threshold of the fitted function." * fits
         else:
             what = "Levels in the order of answers, of each person (thin), and their mean as long as all people answer (thick)."
@@ -1192,7 +1192,7 @@ def _exits(of: Any) -> Iterator[dict[str, Any]]:
 
 
 def _not_counted(task: dict[str, Any]) -> set[str]:
-    """Outcomes after which a trial is done again, and those of trials that nothing ended."""
+    """Outcomes after which a trial is repeated, and the outcome of interrupted trials."""
     return {str(exit["outcome"]) for exit in _exits(task) if exit.get("redo")} | {"interrupted"}
 
 
@@ -1217,7 +1217,7 @@ def _side_column(trials: pd.DataFrame, outcomes: list[str]) -> str:
 
 
 def _series_of(data: Data, trials: pd.DataFrame, x: str) -> tuple[list[str], list[str]]:
-    """Columns whose levels are told apart by colours, and the factors, in words, over which shares are averaged."""
+    """Columns whose levels have their own colours, and the factors, in words, over which shares are averaged."""
     rest = sorted((name for name in data.factors if name != x), key=lambda name: int(trials[name].nunique()))
     candidates = [name for name in rest if trials[name].nunique() > 1]
     if "perturbation" in trials and trials["perturbation"].fillna("").nunique() > 1:

@@ -1,4 +1,4 @@
-"""How the sessions went, which is looked at first: outcomes, repeated and missing trials, durations, forces, late ticks."""
+"""How the sessions went, which should be checked first: outcomes, repeated and missing trials, durations, forces, late ticks."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from .saving import Plan
 from .style import COLOURS, MARKERS, QUIET, canvas, drawing, legend_above, of_data
 from .words import counted, level, words_of
 
-#: Above these figures on the page of a report.
+#: Heading above these figures in a report.
 HEADING = "Quality of the data"
-#: Most outcomes that colours tell apart, and most rows of a panel: the rest is one of them.
+#: Maximum numbers of outcomes with colours, and of rows in a panel; one of each is for the rest.
 _MOST_OUTCOMES = 7
 _MOST_BLOCKS = 14
 _MOST_REASONS = 6
 _MOST_PEOPLE = 8
 #: Fillings of outcomes, for black and white.
 _HATCHES = ["", "////", "....", "\\\\\\\\", "xxxx", "----", "++++"]
-#: Names of what stands for the rest.
+#: Names for the rest.
 _OTHER = "other outcomes"
 _REST = "other reasons"
 #: Events of the kind "limit" (events.csv) in which a device gave less force than was asked for.
@@ -42,7 +42,7 @@ _OF_FAULTS = [
     "the simulation diverged: a force or a position was not a number",
     "force was off, after a fault",
 ]
-#: Columns of the table of people: its heading, and the letters that it is wide.
+#: Columns of the table of people: heading, and width in letters.
 _HEADS = {
     "ticks": "ticks", "missed": "solves\nmissed", "late": "late\nticks", "limited": "force\nlimited", "faults": "faults",
 }  # fmt: skip
@@ -50,7 +50,7 @@ _ROW_MM = 4.2  #: height of a row of a panel
 
 
 def _attempts(data: Data) -> pd.DataFrame:
-    """All attempts, each with its number among those at its trial, and whether it is the last one, which counts."""
+    """All attempts, each with its number among those at its trial, and whether it is the last one, which is used."""
     trials = data.table("trials").reset_index(drop=True)
     keys = [key for key in ("person", "seed", "session", "study_session", "session_num", "trial_num") if key in trials]
     if "block" not in trials:
@@ -76,11 +76,11 @@ def _blocks(data: Data, trials: pd.DataFrame) -> list[str]:
 def trial_outcomes(data: Data) -> pd.DataFrame:
     """How attempts at trials ended, which of them were repeated, and which trials were not measured, and why.
 
-    A row is n `of` total, a `share` of it: "block": the outcomes of the attempts that count, the last one at each trial, in
+    A row is n `of` total, a `share` of it: "block": the outcomes of the last attempts at each trial, in
     each block; "person": the outcomes of each person's first attempts; "mean": the mean of these shares over n people;
     "repeated": the attempts that were repeated, by outcome, of all attempts; "not measured": trials that lack a measure,
     by `reason`, of all trials, with the `measures`. A measure that no trial of the same block, kind, condition and
-    perturbation has is not asked for there, and not counted; unless it is nowhere.
+    perturbation has is not expected there, and not counted, unless no trial at all has it.
 
     >>> from dihaptic import figures
     >>> figures.trial_outcomes(figures.read(lift_session))[["of", "block", "outcome", "n", "share"]].values.tolist()
@@ -145,7 +145,7 @@ def _not_measured(trials: pd.DataFrame) -> pd.DataFrame:
 
 
 def _alike(reasons: pd.Series) -> pd.Series:
-    """Reasons that differ in a number alone, as one: "the movement covered ... % of the way"."""
+    """Reasons that differ only in a number, as one: "the movement covered ... % of the way"."""
     number = re.compile(r"\d+(?:\.\d+)?")
     pattern = reasons.str.replace(number, "\0", regex=True)
     found = reasons.map(number.findall)
@@ -161,10 +161,10 @@ def _alike(reasons: pd.Series) -> pd.Series:
 def draw_trial_outcomes(
     points: pd.DataFrame, *, outcomes: list[str] | None = None, size: str = "two columns", height_mm: float = 0
 ) -> Figure:
-    """Draws trial_outcomes(): stacked bars of outcomes by block, and what there is of people, repetitions, missing measures.
+    """Draws trial_outcomes(): stacked bars of outcomes by block, and, if there are any, people, repetitions, missing measures.
 
     `outcomes` names those that get a colour of their own, in this order; the default are the seven most frequent. Others
-    are one. `height_mm` 0: as high as its rows need. Raises Error without points.
+    share one. `height_mm` 0: as high as its rows need. Raises Error without points.
     """
     if points.empty:
         raise error("there is no trial to draw", "Draw a table of trial_outcomes() with rows.")
@@ -218,7 +218,7 @@ def _title(part: str, own: pd.DataFrame) -> str:
 
 
 def _most_frequent(points: pd.DataFrame) -> list[str]:
-    """The most frequent outcomes, among those of attempts that count and of repeated ones."""
+    """The most frequent outcomes, among those of last attempts and of repeated ones."""
     own = points[points["of"].isin(["block", "repeated"])]
     names = own.groupby("outcome", sort=False)["n"].sum().sort_values(ascending=False, kind="stable").index
     return list(names) if len(names) <= _MOST_OUTCOMES else list(names[: _MOST_OUTCOMES - 1])
@@ -237,7 +237,7 @@ def _rows_of(points: pd.DataFrame, part: str, names: list[str]) -> int:
 
 
 def _bars_of_blocks(axes: Axes, own: pd.DataFrame, looks: dict[str, tuple[str, str, str]], letters: int) -> None:
-    """Stacked bars of shares, with the number of trials at their ends; blocks beyond the most are one."""
+    """Stacked bars of shares, with the number of trials at their ends; blocks beyond the maximum are one."""
     blocks = list(dict.fromkeys(own["block"]))
     if len(blocks) > _MOST_BLOCKS:
         rest = f"{len(blocks) - _MOST_BLOCKS} further blocks"
@@ -289,7 +289,7 @@ def _bars_of_numbers(axes: Axes, own: pd.DataFrame, part: str, letters: int, loo
         numbers, rest = shown["n"].reset_index(drop=True), own[len(shown) :]
         names = [_reason(reason, measures, letters) for reason, measures in zip(shown["reason"], shown["measures"])]
         if len(rest):
-            # a trial may have several reasons: what the rest have in common is not in the table
+            # a trial may have several reasons, so the number of trials with any of the rest is not known
             numbers, names = pd.concat([numbers, pd.Series([rest["n"].max()])]), [*names, f"{_REST} ({len(rest)}), at least"]
         hues, hatches = [QUIET] * len(numbers), [""] * len(numbers)
     for i, (number, hue, hatch) in enumerate(zip(numbers, hues, hatches)):
@@ -423,7 +423,7 @@ def _name_boxes(axes: Axes, part: str, largest: float) -> None:
         axes.set_title("Duration of attempts")
     else:
         known = np.isfinite(largest)
-        axes.set_xlabel("peak force [N]" + (f"\n(dashed: the device's most, {largest:g} N)" if known else ""))
+        axes.set_xlabel("peak force [N]" + (f"\n(dashed: the device's maximum, {largest:g} N)" if known else ""))
         axes.set_title("Largest force")
         if known:
             axes.axvline(largest, color="black", linestyle="--", linewidth=0.8)
@@ -431,8 +431,8 @@ def _name_boxes(axes: Axes, part: str, largest: float) -> None:
 
 
 def _boxes(axes: Axes, own: pd.DataFrame, blocks: list[str], letters: int) -> None:
-    """A box for each block, with a dot for each person's median; names of blocks of so many letters."""
-    own = own.assign(person=own["person"].fillna(""))  # empty in a file, too
+    """A box for each block, with a dot for each person's median; names of blocks have at most so many letters."""
+    own = own.assign(person=own["person"].fillna(""))  # a CSV file has NaN for an empty name
     for i, block in enumerate(blocks):
         whole = own[(own["block"] == block) & (own["person"] == "")]
         people = own[(own["block"] == block) & (own["person"] != "")]
@@ -472,7 +472,7 @@ def _table_of_ticks(axes: Axes, own: pd.DataFrame) -> None:
 
 
 def _thin(number: int) -> str:
-    """A number, its thousands set apart: 296 614."""
+    """A number with its thousands separated: 296 614."""
     return f"{number:,}".replace(",", "\u2009")
 
 
@@ -496,11 +496,11 @@ def _plan_of_outcomes(data: Data, people: str) -> Plan:
     parts = set(points["of"])
     attempts = _attempts(data)
     text = [f"{people}, {counted(int(attempts['counts'].sum()), 'trial')}, {counted(len(attempts), 'attempt')}."]
-    text.append("Of each trial the last attempt counts.")
+    text.append("The last attempt at each trial is used.")
     if "person" in parts:
         text.append("Dots are people; upright lines are means over people.")
     if "not measured" in parts:
-        text.append("A measure that no trial of the same block, kind, condition and perturbation has is not asked for there.")
+        text.append("A measure that no trial of the same block, kind, condition and perturbation has is not expected there.")
     blocks = points.loc[points["of"] == "block", "block"].nunique()
     if blocks > _MOST_BLOCKS:
         text.append(f"Of {blocks} blocks, the last {blocks - _MOST_BLOCKS} are one bar.")
@@ -535,7 +535,7 @@ def _plan_of_timing(data: Data, people: str) -> Plan:
             text.append("Force limited: how often a device began to give less force than was asked for.")
         count = int((points["of"] == "ticks").sum())
         if count > _MOST_PEOPLE + 1:
-            text.append(f"The {_MOST_PEOPLE} of {count} people with most of these have rows of their own.")
+            text.append(f"The {_MOST_PEOPLE} of {count} people with the most of these have rows of their own.")
     return Plan(
         name="timing-and-force", title="Durations, forces and ticks", caption=" ".join(text), points=timing_and_force,
         drawing=draw_timing_and_force,

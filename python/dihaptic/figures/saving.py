@@ -39,17 +39,17 @@ class Plan:
     (2, 1)
     """
 
-    name: str  #: of its files, e.g. "peak-grip-by-mass"
+    name: str  #: name of its files, e.g. "peak-grip-by-mass"
     title: str  #: what it shows, in a few words
     caption: str  #: a sentence or two: what is drawn, n of people and of trials
     points: Callable[..., pd.DataFrame]
     points_options: dict[str, Any] = field(default_factory=dict)
     drawing: Callable[..., Figure] = Figure
     drawing_options: dict[str, Any] = field(default_factory=dict)
-    heading: str = ""  #: above it on the page of a report; "": that of its kind
+    heading: str = ""  #: heading above it in a report; "": that of its kind
 
     def make(self, data: Data) -> tuple[pd.DataFrame, Figure]:
-        """Its points, and the figure. Raises Error."""
+        """The points, and the figure drawn from them. Raises Error."""
         points = self.points(data, **self.points_options)
         return points, self.drawing(points, **self.drawing_options)
 
@@ -82,14 +82,14 @@ figures.save(figure, here / "{self.name}", points)
 
 
 def signed(text: str) -> str:
-    """The last line of a script, by which a script that somebody has changed is known."""
+    """The last line of a script, by which a changed script is recognised."""
     return f"# Checksum {zlib.crc32(text.encode()):08x}: a script that was changed is not written anew.\n"
 
 
 def is_changed(script: Path) -> bool:
     """Whether there is a script that Plan.script() made, and somebody has changed it."""
     if script.is_symlink():
-        return True  # this package makes none
+        return True  # this package makes no links
     if not script.is_file():
         return False
     lines = script.read_text(encoding="utf-8", errors="replace").splitlines(keepends=True)
@@ -120,7 +120,7 @@ def _call(function: Callable[..., Any], first: str, options: dict[str, Any]) -> 
 def save(figure: Figure, file: str | Path, points: pd.DataFrame | None = None) -> list[Path]:
     """Saves a figure as FILE.svg, FILE.pdf and FILE.png (300 dots per inch), and its points as FILE.csv.
 
-    Of a FILE that ends in one of these, that one alone is saved. Returns the files. The same figure always gives the same
+    If FILE ends in one of these, only that file is saved. Returns the files. The same figure always gives the same
     SVG, to the byte. Raises Error when a file cannot be written.
 
     >>> from dihaptic import figures
@@ -141,7 +141,7 @@ def save(figure: Figure, file: str | Path, points: pd.DataFrame | None = None) -
         "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
         "png": {"Software": None},
     }
-    # places are found once, so that they are the same in all formats; finding them takes as long as drawing
+    # the layout is computed once, so that it is the same in all formats; computing it takes as long as drawing
     engine = figure.get_layout_engine()
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
@@ -176,18 +176,18 @@ def _tell(told: list[warnings.WarningMessage], name: str) -> None:
 
 
 def _with_steady_names(svg: bytes) -> bytes:
-    """An SVG whose clipping paths are numbered: matplotlib names some by their place in memory, which differs each time."""
+    """An SVG whose clipping paths are numbered: matplotlib names some by their address in memory, which differs each time."""
     for number, name in enumerate(dict.fromkeys(re.findall(rb'<clipPath id="(\w+)"', svg))):
         svg = svg.replace(name, b"clip%d" % number)
     return svg
 
 
 def write(file: Path, content: bytes) -> Path:
-    """Writes a file, and the folder that it is in. A link of this name is replaced, and what it leads to stays as it is.
+    """Writes a file, and makes its folder. A link of this name is replaced, and its target stays as it is.
     Raises Error."""
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
-        if file.parent.name.startswith("figures") and file.parent.is_symlink():  # this package makes none
+        if file.parent.name.startswith("figures") and file.parent.is_symlink():  # this package makes no links
             raise OSError(0, "its folder is a link to another one")
         new = file.with_name(f".unfinished-{os.getpid()}-{file.name}")
         new.unlink(missing_ok=True)
@@ -199,6 +199,6 @@ def write(file: Path, content: bytes) -> Path:
             new.unlink(missing_ok=True)
             raise
     except OSError as why:
-        remedy = "Mend its permissions, take away what has its name, or name another folder."
+        remedy = "Correct its permissions, remove whatever has its name, or name another folder."
         raise error(f"cannot be written: {why.strerror}", remedy, file=str(file)) from None
     return file

@@ -1,4 +1,4 @@
-"""Finds the sessions that count: in a session's folder, a rehearsal's, a study's, or any folder that contains sessions."""
+"""Finds the sessions to include: in a session's folder, a rehearsal's, a study's, or any folder that contains sessions."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from ..errors import Error, error
 from ..session import Session
 from ..study import Study
 
-#: What is read: a path, or several, in a list, that are compared.
-Paths = Union[str, Path, Sequence[Union[str, Path]]]  # as Python 3.9 can read it
+#: What to read: a path, or a list of paths to compare.
+Paths = Union[str, Path, Sequence[Union[str, Path]]]  # in a form that Python 3.9 can read
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Sample:
 
     experiment: str | None  #: its title
     moved_by: str | None  #: who moved the hand, e.g. "devices" (a person) or "simulated_person"; "": not recorded
-    population: str | None  #: of simulated people
+    population: str | None  #: the population of simulated people
 
     @property
     def is_simulated(self) -> bool:
@@ -39,14 +39,14 @@ class Sample:
         return self.moved_by not in ("devices", "mouse", "")
 
     def is_among(self, wanted: Sample) -> bool:
-        """Whether it has all that is wanted; None is wanted by nobody."""
+        """Whether it has all that is wanted; None stands for any value."""
         pairs = zip(asdict(self).values(), asdict(wanted).values())
         return all(want is None or have == want for have, want in pairs)
 
     def __str__(self) -> str:
         if self.moved_by is None:
             return str(self.experiment)
-        mover = (self.moved_by or "a mover that was not recorded").replace("_", " ")
+        mover = (self.moved_by or "something that was not recorded").replace("_", " ")
         return f"{self.experiment}, moved by {mover}{f' ({self.population})' if self.population else ''}"
 
 
@@ -58,7 +58,7 @@ def samples_in(path: Paths) -> list[Sample]:
 
 #: Some columns of tables that are not in docs/tables.md.
 _OTHER_COLUMNS = {"settings": {"setting"}, "procedures": {"procedure"}, "trial-list": {"trial_num"}}
-#: Columns that these tables and those of points have: a factor or measure of such a name gets another one.
+#: Columns of these tables, and of tables of points: a factor or measure of such a name is renamed.
 _OWN = {
     "person", "group", "session", "study_session", "study_condition", "measure", "of", "n", "value", "low", "high", "part", "all",
     "first", "last", "window", "phase", "number",
@@ -80,7 +80,7 @@ def _checked(session: Session, name: str) -> pd.DataFrame:
     known = {column for column, _ in facts()["columns"].get(f"{name}.csv", [])} or _OTHER_COLUMNS.get(name, set())
     _check_numbers(table, session.folder / f"{name}.csv")
     if known and not known & set(table):
-        what = "is not the table that its name says: it has none of its columns"
+        what = "is not the table that its name suggests: it has none of that table's columns"
         raise error(what, "Restore it from a copy of the session.", file=str(session.folder / f"{name}.csv"))
     return table
 
@@ -94,7 +94,7 @@ def _check_numbers(table: pd.DataFrame, file: Path) -> None:
         wrong = (numbers.isna() & table[column].notna() & ~table[column].isin(["NA", "nan", "NaN"])).to_numpy()
         if not wrong.any():
             table[column] = numbers
-        elif numbers.notna().any():  # a column of words that is named like one of numbers stays
+        elif numbers.notna().any():  # a column of words that is named like one of numbers is kept
             line = int(wrong.argmax()) + 2  # after the header
             what = f"is '{table[column].iloc[line - 2]}', which is not a number"
             raise error(what, "Correct this line, or restore the table.", file=str(file), line=line, key=str(column))
@@ -102,14 +102,14 @@ def _check_numbers(table: pd.DataFrame, file: Path) -> None:
 
 @dataclass(frozen=True)
 class Sitting:
-    """A session, and whose it is."""
+    """A session, and its person."""
 
     session: Session
     person: str
     group: str
     study_session: str = ""
     study_condition: str = ""
-    name: str = ""  #: of the session, which no other one of these has
+    name: str = ""  #: name of the session; no other of these sessions has it
     of: str = ""  #: which of several paths it was found at
 
     @property
@@ -125,12 +125,12 @@ class Sitting:
 
     @property
     def seed(self) -> str:
-        """The seed from which a simulated person was drawn; "" for others, and in a study, where a name is one person's."""
+        """The seed from which a simulated person was drawn; "" for others, and in a study, where a name has one person."""
         return "" if self.study_session else str(self._mover.get("seed") or "")
 
     @property
     def population(self) -> str:
-        """That of a simulated person; "" for others."""
+        """The population of a simulated person; "" for others."""
         return str(self.sample.population or "")
 
     def table(self, name: str) -> pd.DataFrame:
@@ -149,7 +149,7 @@ class Sitting:
 
 
 class Sittings:
-    """The sessions at a path, or at several: those that count, and why the others do not."""
+    """The sessions at a path, or at several: those that are included, and why the others are not."""
 
     def __init__(self, path: Paths) -> None:
         each = [path] if isinstance(path, (str, Path)) else list(path)
@@ -178,7 +178,7 @@ class Sittings:
 
     @property
     def samples(self) -> list[Sample]:
-        """The samples that they belong to, in the order of their titles; of several paths, the experiments."""
+        """The samples that the sessions belong to, in the order of their titles; of several paths, the experiments."""
         samples = {sitting.sample for sitting in self.counting}
         if len(self.paths) > 1:
             samples = {Sample(sample.experiment, None, None) for sample in samples}

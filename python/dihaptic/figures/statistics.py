@@ -19,9 +19,9 @@ import pandas as pd
 from .data import ASIDE, WINDOW, Data
 from .saving import is_changed, signed, write
 
-#: Figures of lifts.csv that are analysed, where the task does not measure the same.
+#: Figures of lifts.csv that are analysed, unless the task measures the same.
 _OF_LIFTS = ["peak_grip_rate_N_s", "static_grip_N", "safety_margin"]
-#: What tells the sessions of a study apart.
+#: Columns that distinguish the sessions of a study.
 _OF_STUDY = ["study_session", "study_condition"]
 #: Kinds of trials that do not show a block's late compensation.
 _PROBES = ["catch", "visual_clamp"]
@@ -32,7 +32,7 @@ _R_WORDS = {
 #: Names that patsy gives a meaning of its own.
 _PATSY_WORDS = {"C", "Q", "I", "T", "center", "standardize", "Treatment", "Sum", "Diff", "Poly", "Helmert"}
 _WIDTH = 118
-#: Most parameters of an interaction.
+#: Maximum number of parameters of an interaction.
 _MOST_OF_PAIR = 12
 
 
@@ -40,7 +40,7 @@ def write_analyses(data: Data, folder: str | Path) -> list[Path]:
     """Writes `analysis.py` (statsmodels) and `analysis.R` (lme4) into the folder, and returns them. One that you have
     changed is left as it is, with a warning.
 
-    Each is a script of its own: it reads the tables that are written beside it (`analysis-trials.csv`, ...), fits a mixed
+    Each is self-contained: it reads the tables that are written beside it (`analysis-trials.csv`, ...), fits a mixed
     model (REML) of each measure, and prints estimates with 95 % intervals (Wald), the numbers of people and of trials.
     Fixed effects are the factors of the design, numbers centred, words compared with the first one; each person has an
     intercept of their own. A second model adds the interactions of each two factors that the design crosses. For learning,
@@ -79,7 +79,7 @@ class _Design:
 
     tables: list[str]
     models: dict[str, list[str]]  #: a measure's factors
-    pairs: dict[str, list[tuple[str, str]]] = field(default_factory=dict)  #: those of them whose interaction can be told
+    pairs: dict[str, list[tuple[str, str]]] = field(default_factory=dict)  #: pairs of these whose interaction can be estimated
     numbers: dict[str, str] = field(default_factory=dict)  #: a numeric factor's unit
     words: dict[str, list[str]] = field(default_factory=dict)  #: levels in order
     of_lifts: list[str] = field(default_factory=list)  #: measures from lifts.csv
@@ -149,7 +149,7 @@ def _late_blocks(table: pd.DataFrame, fits: pd.DataFrame) -> dict[str, str]:
 
 
 def _sitting(table: pd.DataFrame) -> list[str]:
-    """Columns that tell the sessions of a person apart, in which trials have the same numbers."""
+    """Columns that distinguish the sessions of a person, in which trials have the same numbers."""
     return [key for key in ("session", "study_session") if key in table]
 
 
@@ -169,11 +169,11 @@ def _name_factors(data: Data, rows: pd.DataFrame, names: list[str], design: _Des
 
 
 def _effects(rows: pd.DataFrame, measure: str, design: _Design) -> list[str]:
-    """The factors that this measure's trials can tell apart; [] where it has too few trials, or people."""
+    """The factors whose effects this measure's trials can separate; [] where it has too few trials, or people."""
     rows = rows[rows[measure].notna()]
     chosen: list[str] = []
     for name in [*design.words, *design.numbers]:
-        # a factor that few of these trials have, such as that of another session of a study, is none of this measure
+        # a factor that few of these trials have, such as that of another session of a study, is not used for this measure
         if rows[name].notna().sum() * 2 < len(rows):
             continue
         if _is_of_full_rank(rows, [*chosen, name], design):
@@ -185,7 +185,7 @@ def _effects(rows: pd.DataFrame, measure: str, design: _Design) -> list[str]:
 
 
 def _pairs(rows: pd.DataFrame, measure: str, effects: list[str], design: _Design) -> list[tuple[str, str]]:
-    """The pairs of a model's factors whose interactions can be told apart from them and from each other."""
+    """The pairs of a model's factors whose interactions can be separated from them and from each other."""
     rows = rows[rows[measure].notna()]
     chosen: list[tuple[str, str]] = []
     for pair in combinations(effects, 2):
@@ -220,7 +220,7 @@ def _parameters(rows: pd.DataFrame, names: list[str], pairs: list[tuple[str, str
 def _is_of_full_rank(
     rows: pd.DataFrame, names: list[str], design: _Design, pairs: Sequence[tuple[str, str]] = ()
 ) -> bool:
-    """Whether these effects can be told apart."""
+    """Whether these effects can be separated."""
     known = rows.dropna(subset=names)
     if any(known[name].nunique() < 2 for name in names):
         return False
@@ -228,7 +228,7 @@ def _is_of_full_rank(
     return bool(np.linalg.matrix_rank(np.column_stack(columns)) == len(columns))
 
 
-# What both scripts say
+# Texts of both scripts
 
 
 def _about(data: Data, design: _Design) -> list[str]:
@@ -245,7 +245,7 @@ def _notes(design: _Design) -> list[str]:
     factors = [*design.words, *design.numbers]
     partial = [measure for measure, effects in design.models.items() if len(effects) < len(factors)]
     if partial:
-        notes.append("A model lacks the factors that its trials do not tell apart.")
+        notes.append("Factors whose effects a measure's trials cannot separate are left out of its model.")
     if any(design.pairs.values()):
         notes.append("The second model of a measure adds interactions: how much the effect of one factor differs for the other.")
     return notes
@@ -260,7 +260,7 @@ def _formula_name(name: str, language: str) -> str:
 
 
 def _formulas(design: _Design, measure: str, language: str) -> list[str]:
-    """The formula of a measure's factors, and one that has their interactions, too, if these can be told."""
+    """The formula of a measure's factors, and one that has their interactions, too, if these can be estimated."""
     names = {name: _formula_name(name, language) for name in design.models[measure]}
     factors = " + ".join(names.values())
     pairs = [f"{names[first]}:{names[second]}" for first, second in design.pairs.get(measure, [])]
@@ -304,7 +304,7 @@ def _python(data: Data, design: _Design) -> str:
     models = "".join(f"    {_text(name)}: [{_items(_formulas(design, name, 'Python'))}],\n" for name in design.models)
     rows = _python_late(design, sitting) if design.late else _python_attempts(design, sitting)
     return f'''"""{about}
-Run with python3 analysis.py; it takes the Debian package python3-statsmodels. analysis.R fits the same models.
+Run with python3 analysis.py; it needs the Debian package python3-statsmodels. analysis.R fits the same models.
 """
 
 from pathlib import Path
@@ -386,7 +386,7 @@ def _r(data: Data, design: _Design) -> str:
     models = ",\n".join(f"  `{name}` = {_vector(_formulas(design, name, 'R'))}" for name in design.models)
     rows = _r_late(design, sitting) if design.late else _r_attempts(design, sitting)
     return f"""{_comment(_about(data, design))}
-# Run with Rscript analysis.R; it takes the Debian package r-cran-lme4. analysis.py fits the same models.
+# Run with Rscript analysis.R; it needs the Debian package r-cran-lme4. analysis.py fits the same models.
 suppressPackageStartupMessages(library(lme4))
 options(width = 200)
 script <- sub("^--file=", "", grep("^--file=", commandArgs(), value = TRUE))

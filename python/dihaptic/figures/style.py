@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from ..charts import COLOURS as COLOURS  # the same ones
+from ..charts import COLOURS as COLOURS  # the same colours
 from ..errors import NotThere
 
 #: The mark of each colour, so that figures can be read in black and white.

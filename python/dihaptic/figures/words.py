@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-#: Columns whose name says less than a reader needs.
+#: Columns whose names are too terse for a reader.
 _WORDS = {
     "hand_angle": "direction error of the hand",
     "shown_angle": "direction error as shown",

@@ -3,7 +3,7 @@
     dihaptic report rehearsals/grip-and-lift_1
 
 The program makes the tables, and this package the page, from them and from the figures of dihaptic.figures, which are saved
-beside it. `python3 -m dihaptic.reports FOLDER` makes the page alone, from the tables that are there; so it does on a
+beside it. `python3 -m dihaptic.reports FOLDER` makes only the page, from existing tables; this also works on a
 computer without the program. To change the page for your laboratory, change sections.py; for a figure, change its script in
 the folder figures, which is then kept.
 """
@@ -34,9 +34,9 @@ def write_page(
     """Writes report.html, and the folder figures beside it, and returns the page.
 
     `paths`: a session's folder, a rehearsal's, a study's file, or a folder that contains sessions; or several of them,
-    which are compared, and need a folder `out` for the page. `told` is what `dihaptic report` says beside the tables
-    (src/analysis/report/report_json.cpp). Of several experiments, and of people and simulated ones, the page has a part
-    each. Figures are drawn in `jobs` processes. Raises Error.
+    which are compared, and need a folder `out` for the page. `told` is what `dihaptic report` adds to the tables
+    (src/analysis/report/report_json.cpp). Each experiment, and people and simulated people, have separate parts of the
+    page. Figures are drawn in `jobs` processes. Raises Error.
 
     >>> from dihaptic.reports import write_page
     >>> write_page(lift_session).name
@@ -94,7 +94,7 @@ def _figures_of(folder: Path, data: figures.Data, every: list[figures.Data]) -> 
 
 
 def _told_of(data: figures.Data, told: dict[str, Any]) -> dict[str, Any]:
-    """What the program says of these sessions: of the first sample that has one of them, with the words of all."""
+    """The program's description of these sessions: that of the first sample with one of them, with `who` of all samples."""
     folders = {str(session.folder) for session in data.sessions}
     own = [each for each in told.get("samples") or [] if folders & {os.path.abspath(f) for f in each.get("folders") or []}]
     if not own:
@@ -104,7 +104,7 @@ def _told_of(data: figures.Data, told: dict[str, Any]) -> dict[str, Any]:
 
 
 def _origin(every: list[figures.Data], told: dict[str, Any]) -> str:
-    """Where the numbers of the page are from, in a sentence or two."""
+    """The origin of the numbers on the page, in a sentence or two."""
     sessions = sum(len(data.sessions) for data in every)
     programs = sorted({str(session.info.get("program", "")) for data in every for session in data.sessions} - {""})
     where = ", ".join(dict.fromkeys(str(path) for data in every for path in data.paths))

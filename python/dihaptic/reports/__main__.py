@@ -14,7 +14,7 @@ from . import write_page
 _HELP = """Make report.html and its figures from the tables that are there
 Usage: python3 -m dihaptic.reports SESSION|REHEARSAL|STUDY.yaml|FOLDER
 
-dihaptic report makes the tables before, and calls this with a description on the standard input.
+dihaptic report first makes the tables, and then calls this with a description on the standard input.
 
 Example:
   python3 -m dihaptic.reports rehearsals/grip-and-lift_1"""
@@ -25,7 +25,7 @@ def main(words: list[str]) -> int:
     if not words or words[0] in ("-h", "--help"):
         print(_HELP)
         return 0 if words else 2
-    warnings.formatwarning = lambda message, *_: f"{message}\n"  # for somebody who has typed a command
+    warnings.formatwarning = lambda message, *_: f"{message}\n"  # short, for the command line
     try:
         told: dict[str, Any] = {} if sys.stdin is None or sys.stdin.isatty() else json.loads(sys.stdin.buffer.read() or "{}")
         show = _Progress()
@@ -60,7 +60,7 @@ class _Progress:
             print(f"\r\033[Kdrawing: {title}", end="", file=sys.stderr, flush=True)
 
     def end(self) -> None:
-        """Takes the line away."""
+        """Clears the line."""
         if self._shows:
             print("\r\033[K", end="", file=sys.stderr, flush=True)
 

@@ -1,4 +1,4 @@
-"""The models of learning that were fitted, and what is said of fits that tell little."""
+"""The models of learning that were fitted, and notes on fits that say little."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ _PARAMETERS = {
 }  # fmt: skip
 #: Columns of adaptation.csv with the models' curves, and what they are.
 _CURVES = {"two_rate": "two-rate model", "single_rate": "single-rate model"}
-#: What is as near as this to a bound, or to another retention, is at it (fits.csv has nine digits).
+#: A parameter as near as this to a bound, or to the other retention, is taken to be at it (fits.csv has nine digits).
 _NEAR = 1e-3
 #: The share of the variance below which a model explains little.
 _LITTLE = 0.2
-#: Most notes, the most frequent ones.
+#: Maximum number of notes; the most frequent ones are kept.
 _MOST_NOTES = 6
 
 
@@ -50,8 +50,8 @@ def models_table(fits: pd.DataFrame, single: bool) -> pd.DataFrame:
 
 def notes_on_models(data: Data) -> str:
     """Sentences on fits whose parameters mean little, with the number of people, or of curves, that they hold for: a
-    parameter, or the end of one person's interval, lies at its bound (0 or 1), the two retentions are equal, or the model explains
-    little of the variance, or less than a constant. Of many, these are the most frequent. "" without any."""
+    parameter, or the end of one person's interval, lies at its bound (0 or 1), the two retentions are equal, or the model
+    explains little of the variance, or less than a constant. If there are many, only the most frequent ones. "" without any."""
     fits = data.table("fits")
     said = []
     for name, words in _PARAMETERS.items():

@@ -11,14 +11,14 @@ from typing import Any
 
 import pandas as pd
 
-#: Figures whose points are larger than this [bytes] are not on the page as numbers, but in a file beside it.
+#: Points of a figure that are larger than this [bytes] are in a file beside the page instead of on it.
 _MOST_POINTS = 200_000
-#: Columns of a table that has room on paper.
+#: Maximum number of columns of a table that fits on paper.
 _MOST_COLUMNS = 8
 
 
 class Page:
-    """A page, made from above to below. Texts are shown as they are, whatever they contain.
+    """A page, made from top to bottom. Texts are shown as they are, whatever they contain.
 
     >>> from dihaptic.reports.page import Page
     >>> page = Page("Grip & lift", "Simulated.", "Made by the program.")
@@ -44,7 +44,7 @@ class Page:
 
     @property
     def is_empty(self) -> bool:
-        """Whether it has no content."""
+        """Whether the page has no content."""
         return not self._body
 
     def text(self, text: str, kind: str = "") -> None:
@@ -53,7 +53,7 @@ class Page:
 
     def table(self, table: pd.DataFrame, caption: str = "", *, folded: str = "", keys: int = 0) -> None:
         """A table with its header; numbers have three digits. With `folded`, only this title is seen at first. With `keys`,
-        a table that is too wide for paper is in pieces, which all begin with so many of its columns."""
+        a table that is too wide for paper is split into pieces, each of which begins with this number of its columns."""
         if len(table) == 0:
             return
         rest = table.shape[1] - keys

@@ -1,4 +1,4 @@
-"""What came out, in sentences, and what a reader is warned of before using it."""
+"""The results in sentences, and warnings to read before using them."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from ..figures.words import counted, label, level, with_unit, words_of
 from .page import in_short
 from .simulated import limits_of
 
-#: Measures that are in the sentences; the others are in the table.
+#: Number of measures in the sentences; the others are in the table.
 _MOST_MEASURES = 3
-#: Figures of lifts that are in them, where the task has no measures of its own.
+#: Figures of lifts in the sentences, if the task has no measures of its own.
 _OF_LIFTS = ["peak_grip_N", "static_grip_N", "safety_margin"]
-#: Most levels that are listed by their names.
+#: Maximum number of levels that are listed by name.
 MOST_LISTED = 12
 #: Columns over which no sentence takes a mean.
 _APART = ("group", "round", "study_session", "perturbation")
-#: The share of trials that were repeated from which on a reader is warned.
+#: A reader is warned if more than this share of the trials was repeated.
 _MANY_REPEATED = 0.1
 
 
@@ -34,7 +34,7 @@ def results_of(data: Data) -> list[str]:
 
 
 def warnings_of(data: Data, told: dict[str, Any]) -> list[str]:
-    """What speaks against using these numbers as they are. `told` is what the program says of these sessions."""
+    """Reasons not to use these numbers as they are. `told` is the program's description of these sessions."""
     out = []
     if told.get("not_measured"):
         out.append(
@@ -81,7 +81,7 @@ def with_spreads(means: pd.Series, spreads: pd.Series) -> list[str]:
     largest = means.abs().max()
     is_known = spreads > 1e-4 * largest
     some = spreads[is_known]
-    # the larger of two in the middle: people's deviations have few digits that are known
+    # takes the larger of two middle deviations, since few digits of people's deviations are certain
     size = max(some.quantile(0.5, interpolation="higher") / 10, largest / 1000) if len(some) else largest / 100
     digits = min(6, max(0, -math.floor(math.log10(size)))) if size > 0 else 0
     # + 0.0: no "-0.00"
@@ -277,7 +277,7 @@ def _missed_solves(data: Data) -> str:
 
 
 def shared_windows(adaptation: pd.DataFrame) -> str:
-    """Says of adaptation.csv whether early and late are means over some of the same trials; "" if they are not."""
+    """A warning if early and late in adaptation.csv are means over some of the same trials; "" if they are not."""
     least: dict[str, int] = {}
     keys = [*sitting_columns(adaptation), "round"]
     for case, own in adaptation.groupby(keys, sort=False, dropna=False):

@@ -1,4 +1,4 @@
-"""What the page of a report says of one sample: facts, figures, and tables."""
+"""What the page of a report says about one sample: facts, figures, and tables."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def add_sample(
     page: Page, data: Data, told: dict[str, Any], figures: Path, *, jobs: int, progress: Callable[[str], None] | None
 ) -> list[Drawn]:
     """Adds a sample to the page, and saves its figures in the folder `figures`: the result, its figures and tables, the
-    quality of the data, and then what few readers look at. `told` is what the program says of the sample
+    quality of the data, and then details for few readers. `told` is the program's description of the sample
     (src/analysis/report/report_json.cpp). Raises Error."""
     _facts(page, data, told)
     _result(page, data, told)
@@ -74,7 +74,7 @@ def add_sample(
 
 
 def _result(page: Page, data: Data, told: dict[str, Any]) -> None:
-    """What came out, and what speaks against it, before any figure."""
+    """The results, and warnings about them, before any figure."""
     results, warnings = results_of(data), warnings_of(data, told)
     if results or warnings:
         page.heading("Result")
@@ -99,7 +99,7 @@ def _methods(page: Page, data: Data, told: dict[str, Any]) -> None:
 
 
 def _nothing(page: Page, data: Data) -> None:
-    """A part of the page that has figures alone."""
+    """A part of the page that has only figures."""
 
 
 def _figure(page: Page, drawn: Drawn) -> None:
@@ -108,7 +108,7 @@ def _figure(page: Page, drawn: Drawn) -> None:
     points = _text_of(base.with_suffix(".csv"), drawn.script)
     caption = drawn.plan.caption
     if drawn.kept:
-        caption += f" Drawn by {drawn.script.name} as you have changed it; the caption is that of the figure before."
+        caption += f" Drawn by {drawn.script.name} as you have changed it; the caption is that of the original figure."
     page.figure(svg, drawn.plan.title, caption, f"{base.parent.name}/{base.name}", points)
 
 
@@ -190,7 +190,7 @@ def _outcomes(page: Page, data: Data) -> None:
 
 
 def _measures(page: Page, data: Data) -> None:
-    """Each measure by condition, and why it is missing."""
+    """Each measure by condition, and why values are missing."""
     if not data.has("trials") or not data.measures:
         return
     trials = counting_trials(data)
@@ -216,7 +216,7 @@ def _means(page: Page, data: Data, measures: list[str], table: str) -> None:
         return
     caption = (
         f"Means over {'trials' if len(data.people) == 1 else 'people'}{intervals(counts)}. Practice, catch trials and "
-        "repeated attempts are left out; so are force channels, of measures that other trials have."
+        "repeated attempts are left out; so are force channels, for measures that other trials have."
     )
     page.table(means, caption, keys=keys)
 
@@ -252,12 +252,12 @@ def _by_condition(data: Data, measures: list[str], table: str) -> tuple[pd.DataF
 
 
 def _lifts(page: Page, data: Data) -> None:
-    """Medians of lifts by block and condition, and what the weight before does."""
+    """Medians of lifts by block and condition, and the effect of the previous weight."""
     if not data.has("lifts"):
         return
     lifts = data.table("lifts")
     if "lift" in lifts and not (lifts["lift"] == "complete").any():
-        return  # of another task: objects that are pushed, or carried from the start
+        return  # another kind of task: objects that are pushed, or carried from the start
     trials = data.table("trials")
     keys = [key for key in (*sitting_columns(lifts), "trial_num", "attempt") if key in trials]
     design = [name for name in ("study_session", "round", "block", "kind", "condition") if name in trials]
@@ -278,7 +278,7 @@ def _lifts(page: Page, data: Data) -> None:
     _means(page, data, measures_of_lifts(data), "lifts")
     over = "Medians over lifts" if len(data.people) == 1 else "Means over people of each person's median"
     table = pd.DataFrame(rows).set_index("median of").T.rename_axis(columns=None).reset_index(names="median of")
-    caption = f"{over}, practice and catch trials included; an incomplete lift counts for the figures that it has."
+    caption = f"{over}, practice and catch trials included; an incomplete lift is included in the figures that it has."
     if "safety margin" in list(table["median of"]):
         caption += " Safety margin: the share of the static grip that exceeds the least grip without slip."
     page.table(table, caption, keys=1)
@@ -287,7 +287,7 @@ def _lifts(page: Page, data: Data) -> None:
 
 def _previous_weight(page: Page, data: Data) -> None:
     effects = previous_weight(data)
-    what = "the largest rate of load force changes by {} N/s for each N of the weight lifted before"
+    what = "the largest rate of load force changes by {} N/s for each N of the previous weight"
     for group, own in effects.groupby("group", sort=False):
         of = f" ({group})" if group else ""
         if len(own) == 1:
@@ -296,17 +296,17 @@ def _previous_weight(page: Page, data: Data) -> None:
             text += f" (standard error, {one['n']} pairs of lifts)"
         else:
             text = what.format(with_interval(*_mean_of(own["effect"]))) + f" (95 %, {len(own)} people)"
-        page.text(f"Weight of the lift before{of}, with that of this lift in one regression: {text}.")
+        page.text(f"Weight of the previous lift{of}, with that of this lift in one regression: {text}.")
 
 
 def _learning(page: Page, data: Data) -> None:
-    """Compensation in windows, the models' parameters, and what is known of the curves."""
+    """Compensation in windows, the models' parameters, and notes on the curves."""
     if not data.has("fits"):
         return
     fits = data.table("fits")
     fits["round"] = fits["round"].fillna("").astype(str)
     for note in dict.fromkeys(fits["note"].dropna().astype(str) if "note" in fits else []):
-        page.text(f"Of a learning curve it is said: {note}.")
+        page.text(f"Note on a learning curve: {note}.")
     try:
         points = learning_windows(data)
     except ValueError:  # no curve of these sessions has a window
@@ -332,11 +332,11 @@ def _learning(page: Page, data: Data) -> None:
 def _corrections(page: Page, data: Data) -> None:
     if data.has("corrections"):
         table = data.table("corrections").drop(columns=["session", "simulated", "moved_by", "population"], errors="ignore")
-        page.table(without_empty(table), "When the mean velocity parts from that of matched trials.")
+        page.table(without_empty(table), "Times at which the mean velocity departs from that of matched trials.")
 
 
 def _thresholds(page: Page, data: Data) -> None:
-    """The fitted thresholds: of one person with their intervals, of several their means."""
+    """The fitted thresholds: for one person with their intervals, for several people as means."""
     if not data.has("thresholds"):
         return
     table = data.table("thresholds")
@@ -374,7 +374,7 @@ def _level(value: Any, unit: str) -> str:
 
 
 def _mean_of(values: pd.Series) -> tuple[float, float, float]:
-    """A mean, and its 95 % interval; NaN for what too few values do not tell."""
+    """A mean, and its 95 % interval; NaN where there are too few values."""
     means = means_with_intervals(pd.DataFrame({"value": values, "all": 0}), ["all"])
     if means.empty:
         return math.nan, math.nan, math.nan

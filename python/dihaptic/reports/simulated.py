@@ -1,4 +1,4 @@
-"""Says what simulated people cannot do that an experiment asks of them: such answers look like any others."""
+"""Names the abilities that an experiment needs and simulated people lack: their answers would look like any others."""
 
 from __future__ import annotations
 

@@ -11,12 +11,12 @@ from ..figures.words import counted, in_print, level, with_unit, words_of
 from .page import in_short
 from .results import MOST_LISTED, capital, listed, with_spreads
 
-#: Most perturbations that have a sentence; the others are in the table.
+#: Maximum number of perturbations with a sentence; the others are in the table.
 _MOST_PERTURBATIONS = 6
 
 
 def methods_of(data: Data, told: dict[str, Any]) -> list[str]:
-    """Paragraphs of methods. `told` is what the program says of these sessions."""
+    """Paragraphs of methods. `told` is the program's description of these sessions."""
     methods = [f"{_who(data, told)} {_apparatus(data)}", _design(data), _set_values(data), _perturbations(data, told)]
     return [text for text in methods if text]
 
@@ -71,7 +71,7 @@ def _trials(data: Data) -> pd.DataFrame:
 
 
 def _levels(trials: pd.DataFrame, column: str) -> list[str]:
-    """The words in a column, in the order in which they come first."""
+    """The words in a column, in the order of their first occurrence."""
     return [str(word) for word in trials[column].dropna().unique() if str(word)] if column in trials else []
 
 
@@ -107,13 +107,13 @@ def _design(data: Data) -> str:
 
 
 def _set_values(data: Data) -> str:
-    """Measures that tell what was presented."""
+    """Names the measures that describe what was presented."""
     names = [words_of(name, data.measure(name).unit) for name in data.stimuli]
     return f"{capital(listed(names))} {'was' if len(names) == 1 else 'were'} set by the experiment." if names else ""
 
 
 def _perturbations(data: Data, told: dict[str, Any]) -> str:
-    """A sentence for each perturbation: its blocks, kind and size. What rounds or conditions replace is left out."""
+    """A sentence for each perturbation: its blocks, kind and size. Values that rounds or conditions replace are left out."""
     rows = [[*map(str, row)] for row in (told.get("perturbations") or {}).get("rows") or []]
     trials = _trials(data)
     within = {name: {row[1] for row in rows if row[0] == name} for name, *_ in rows}

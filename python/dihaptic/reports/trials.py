@@ -18,12 +18,12 @@ from ..figures.sessions import Sitting
 from ..figures.style import COLOURS
 from ..session import Session
 
-#: Points of a curve for each second, and the most numbers on a page: a page of a few MB still opens at once.
+#: Number of points of a curve per second, and maximum of numbers on a page: a page of a few MB still opens at once.
 _POINTS_PER_S = 100
 _MOST_NUMBERS = 200_000
 #: The longest recording without trials that is shown as one [s].
 _LONGEST = 60.0
-#: Trials that last longer are shown up to there [s].
+#: Of longer trials, only this much is shown [s].
 _LONGEST_TRIAL = 30.0
 
 
@@ -69,7 +69,7 @@ def trials_to_look_at(data: Data) -> dict[str, Any]:
     for session, own in groupby(chosen, _session_of):
         try:
             shown += _shown(session, list(own), strips)
-        except (Error, KeyError):  # the recording lacks what the tables have: the page says so elsewhere
+        except (Error, KeyError):  # the recording lacks something that the tables have, which the page reports elsewhere
             continue
     if not shown or not strips:
         return {}
@@ -108,7 +108,7 @@ def _trials_of(sitting: Sitting) -> list[_Trial]:
 
 
 def _strips(session: Session) -> list[tuple[str, str, list[_Curve]]]:
-    """Quantities that are drawn above each other: name, unit, curves."""
+    """Quantities that are drawn one above another: name, unit, curves."""
     colours: dict[str, str] = facts()["colours"]
     forces = [
         _Curve(name, f"{name}_force", colours.get(name, COLOURS[i]))

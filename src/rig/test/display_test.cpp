@@ -73,7 +73,7 @@ TEST(Displays, ThatNobodyCanSeeAreErrors) {
              {"[-250, 130, 80]", "[-250, 1e5, 80]", "upper_left: is 1e+05 mm from"},
              {"[-250, 130, 80]", "[-150, 130, 80]", "makes an angle of 71.6 degrees"},
              {"[0, -330, 420]", "[0, 330, -420]", "is behind the screen"},
-             {"[0, -330, 420]", "[0, 0, 10]", "mm before the screen's plane"},
+             {"[0, -330, 420]", "[0, 0, 10]", "mm in front of the screen's plane"},
              {"position_mm: [0, -330, 420]", "position_mm: [0, -330, 420], along: [0, 0, 0]",
               "along: has no direction"},
              {"mirror", "mir/ror", "cannot be a name"},

@@ -80,7 +80,7 @@ TEST(Mixer, RepeatsWhatGoesOnUntilItsEndIsOrdered) {
                                        : 0;
         EXPECT_NEAR(out[i], 0.5 * wanted, 1e-6) << i;
     }
-    // it can begin again, and what ended does not end the new one
+    // the sound can begin again, and the earlier end does not end it
     mixer.order({0, 0, true, 0, 100 * kMs});
     EXPECT_EQ(play(mixer, {40}, 100 * kMs)[30], 0.5f);
 }

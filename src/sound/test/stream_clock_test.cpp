@@ -12,7 +12,7 @@ namespace dihaptic::sound::stream_clock_test {
 namespace {
 
 TEST(StreamClock, FollowsACrystalThatIsOffAndTimesThatShake) {
-    // 128 samples of a crystal that is 100 ppm fast; times shake by 2 ms
+    // 128 samples of a crystal that is 100 ppm fast; reported times jitter by 2 ms
     const double rate = 48000;
     const double buffer = 128 / (rate * 1.0001) * 1e9;
     Random random(1, "test");

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kRate = 48000;
 
-/// Power at a frequency, by Goertzel's sum over a window of Hann.
+/// Power at a frequency, by Goertzel's sum over a Hann window.
 double power_at(const std::vector<float>& samples, size_t from, size_t n, double frequency) {
     std::complex<double> sum = 0;
     for (size_t i = 0; i < n; ++i) {

@@ -6,7 +6,7 @@
 
 namespace dihaptic::view::hand_bones_test {
 
-constexpr size_t kThumbTip = 4, kIndexTip = 8;  // the bones that end at these
+constexpr size_t kThumbTip = 4, kIndexTip = 8;  // indices of the bones that end at the tips
 
 Vec3 random_place(std::mt19937& random, double half) {
     std::uniform_real_distribution<double> draw(-half, half);
@@ -27,7 +27,7 @@ TEST(HandBones, EndWhereThumbAndIndexTouch) {
         if ((index - thumb).norm() < 0.005) continue;
         const std::vector<Bone> bones = hand_bones(thumb, index);
         ASSERT_EQ(bones.size(), 21u);
-        // a pad's thickness outside
+        // the bones end outside the points by the thickness of a pad
         const Vec3 a = (index - thumb).normalized();
         EXPECT_LT((bones[kThumbTip].to - (thumb - 0.006 * a)).norm(), 1e-6);
         EXPECT_LT((bones[kIndexTip].to - (index + 0.006 * a)).norm(), 1e-6);

@@ -1,4 +1,4 @@
-// Tests that a picture shows things as the Frame says: hidden, coloured, displaced.
+// Tests that a picture shows things as the Frame describes them: hidden, coloured or displaced.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -64,7 +64,7 @@ TEST(Looks, AHiddenBodyIsNotSeenNorItsShadow) {
     frame.task.looks = {{1, 1, -1, 1}};
     const Image hidden = picture(scene, frame);
     EXPECT_GT(different(whole, hidden), 1000);  // the block and its shadow
-    // a block that is so far below the table that neither it nor a shadow of it can be seen
+    // a block so far below the table that neither it nor its shadow can be seen
     frame::Frame without = start(scene);
     without.bodies[1].X_WB.p = {0, 0, -0.5};
     EXPECT_LT(different(picture(scene, without), hidden), 20);

@@ -9,7 +9,7 @@
 #include "software_renderer.h"
 
 #ifdef __SANITIZE_ADDRESS__
-/// LeakSanitizer stops all threads to look at their memory, and fails on those of Mesa.
+/// LeakSanitizer stops all threads to look at their memory, and fails at Mesa's threads.
 extern "C" const char* __asan_default_options();   // NOLINT
 extern "C" const char* __asan_default_options() {  // NOLINT
     return "detect_leaks=0";
@@ -72,8 +72,8 @@ Camera under(const Vec3& p_W) {
     return camera;
 }
 
-/// Light that reaches the table around a point, over that without the other bodies: by pixel, rows
-/// from far to near.
+/// Ratio of the light that reaches the table around a point to that without the other bodies: by
+/// pixel, rows from far to near.
 std::vector<double> shares(const scene::Scene& scene, const Vec3& around) {
     const Image image = picture(scene, start(scene), under(around), kPixels, kPixels);
     const scene::Scene bare = on_table({});
@@ -414,7 +414,7 @@ TEST(SceneView, DrawsWhatIsKnown) {
     EXPECT_EQ(without.rgb, away.rgb);
 }
 
-/// Bodies that an experiment displays elsewhere are drawn as if they were there.
+/// Bodies that an experiment displays at another position are drawn as if they were at it.
 TEST(SceneView, DrawsTheDisplayedWorld) {
     const Held held;
     frame::Frame moved = held.frame;

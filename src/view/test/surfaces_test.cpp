@@ -1,4 +1,5 @@
-// Tests that bodies look as their scene says: by pinholes and by the formulas of ../README.md.
+// Tests that bodies look as their scene describes them, by means of pinholes and the formulas of
+// ../README.md.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -75,8 +76,8 @@ Image checker(int square) {
     return out;
 }
 
-/// Every pixel of a plate with squares of 10 mm is as light or dark as the place that a pinhole
-/// has there, except those along the squares' edges.
+/// Every pixel of a plate with squares of 10 mm is as light or dark as the point that a pinhole
+/// would show at that pixel, except those along the squares' edges.
 TEST(Pictures, HaveTheirEdgesWhereAPinholePutsThem) {
     scene::Scene scene = one_body({0.3, 0.3, 0.01});
     scene::Body& plate = scene.bodies[0];
@@ -149,7 +150,7 @@ double smoothstep(double low, double high, double at) {
     return t * t * (3 - 2 * t);
 }
 
-/// What is seen of a surface without shadows, by the formulas of the README: n is its normal, v
+/// The light seen from a surface without shadows, by the formulas of the README: n is its normal, v
 /// points to the eye.
 Vec3 lit(scene::Finish finish, const Vec3& base, const Vec3& n, const Vec3& v) {
     const Vec3 sky(0.44, 0.47, 0.52), ground(0.29, 0.275, 0.26), key(0.88, 0.85, 0.80);

@@ -17,7 +17,8 @@ scene::VolumeIntegrals solid(const Triangles& t) {
     return scene::integrate(vertices, faces);
 }
 
-/// Volume that the triangles enclose over the shape's volume; negative if they face inward.
+/// Ratio of the volume that the triangles enclose to the shape's volume; negative if they face
+/// inward.
 double share(const scene::Shape& shape) {
     return solid(triangles(shape)).volume / scene::integrate(shape).volume;
 }

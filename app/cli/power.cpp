@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "command.h"
+#include "common/package.h"
+
+namespace dihaptic::cli {
+namespace {
+
+struct PowerOptions {
+    std::string file;
+    std::string effect;
+    std::vector<int> n{8, 12, 16, 24};
+    int people = 200;
+    int draws = 500;
+    std::string test;
+    double alpha = 0.05;
+    double ratio = 1;
+    double attrition = 0;
+    std::string population;
+    int seed = 1;
+    int jobs = 0;
+    std::string out;
+};
+
+/// The command of the Python package; the values of options are texts that it reads again.
+std::vector<std::string> words_of(const PowerOptions& o) {
+    std::vector<std::string> out{o.file,
+                                 "--effect=" + o.effect,
+                                 fmt::format("--people={}", o.people),
+                                 fmt::format("--draws={}", o.draws),
+                                 fmt::format("--alpha={}", o.alpha),
+                                 fmt::format("--ratio={}", o.ratio),
+                                 fmt::format("--attrition={}", o.attrition),
+                                 fmt::format("--seed={}", o.seed),
+                                 fmt::format("--jobs={}", o.jobs),
+                                 "--test=" + o.test,
+                                 "--population=" + o.population,
+                                 "--out=" + o.out,
+                                 "--n"};
+    for (const int n : o.n) out.push_back(fmt::format("{}", n));
+    return out;
+}
+
+void power(PowerOptions options) {
+    if (options.jobs == 0)
+        options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const std::string package = app::python_folder();
+    const Error missing({options.file, 0}, "",
+                        "has no power yet, because the Python package computes it",
+                        "Type sudo apt install python3-dihaptic or, in a checkout, ./dev build.");
+    if (package.empty()) throw missing;
+    Launch launch = app::python_launch(package, "dihaptic.power_analysis.__main__");
+    const std::vector<std::string> words = words_of(options);
+    launch.arguments.insert(launch.arguments.end(), words.begin(), words.end());
+    std::fflush(stdout);  // before the child's own lines
+    Child python;
+    if (const int failed = python.start(launch); failed != 0)
+        throw Error(
+            {options.file, 0}, "",
+            std::string("has no power yet: Python cannot be started: ") + std::strerror(failed),
+            "End other programs and try again.");
+    const int status = python.wait().value_or(-1);
+    exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : kFailed;
+}
+
+}  // namespace
+
+void add_power(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "power", "Compute the statistical power of an experiment from simulated people who do it");
+    auto options = std::make_shared<PowerOptions>();
+    command
+        ->add_option("EXPERIMENT|FOLDER", options->file,
+                     "the experiment's file, of which a pool of people is rehearsed; or the "
+                     "folder of a rehearsal, which is then the pool")
+        ->required();
+    command
+        ->add_option("--effect", options->effect,
+                     "expression over its tables: a value of each person, which is compared with "
+                     "zero, or one group's value less another's")
+        ->required();
+    command->add_option("--n", options->n, "numbers of people who are recruited, in each group")
+        ->delimiter(',')
+        ->capture_default_str();
+    command->add_option("--people", options->people, "people of the pool")->capture_default_str();
+    command->add_option("--draws", options->draws, "samples of each size")->capture_default_str();
+    command->add_option("--test", options->test,
+                        "t, wilcoxon or, of two groups, welch; default: t, and welch of groups");
+    command->add_option("--alpha", options->alpha, "level of the test, which is two-sided")
+        ->capture_default_str();
+    command
+        ->add_option("--ratio", options->ratio, "people of the second group for one of the first")
+        ->capture_default_str();
+    command->add_option("--attrition", options->attrition, "share of the people who are lost")
+        ->capture_default_str();
+    command->add_option("--population", options->population,
+                        "file of the population; default: the shipped one");
+    command->add_option("--seed", options->seed, "of the people and of the samples")
+        ->capture_default_str();
+    command->add_option("--jobs", options->jobs,
+                        "people at a time; default: one on each processor");
+    command->add_option("--out", options->out, "folder of the results; default: power/NAME_SEED");
+    command->footer(
+        "\nThe folder gets power.html, a page for a preregistration; the figure power.svg, .pdf "
+        "and "
+        ".png; and\n"
+        "power.csv, power-by-n.csv and people.csv. The pool is in its folder pool: if the command "
+        "is "
+        "interrupted,\n"
+        "the same command continues it.\n"
+        "\nExample:\n  dihaptic power experiments/size-weight.yaml --n 8,12,16 \\\n"
+        "    --effect \"mean(peak_grip_rate_N_s, condition=large) - mean(peak_grip_rate_N_s, "
+        "condition=small)\"");
+    command->callback([options] { power(*options); });
+}
+
+}  // namespace dihaptic::cli

@@ -1,0 +1,26 @@
+#include "common/package.h"
+
+#include <filesystem>
+
+#include "base/installed.h"
+
+namespace dihaptic::app {
+
+std::string python_folder() {
+    const std::string facts = in_or_above_program(
+        {"python/dihaptic/facts.json", "lib/python3/dist-packages/dihaptic/facts.json"});
+    return facts.empty() ? "" : std::filesystem::path(facts).parent_path().parent_path().string();
+}
+
+Launch python_launch(const std::string& folder, const std::string& module) {
+    // another Python, such as Anaconda's, does not have the package; -I ignores the current folder,
+    // the environment and the user's own packages
+    const std::string code_of = "import sys; sys.path.insert(0, sys.argv.pop(1)); from " + module +
+                                " import main; sys.exit(main(sys.argv[1:]))";
+    return {"/usr/bin/env",
+            {"MPLBACKEND=agg", "/usr/bin/python3", "-I", "-c", code_of, folder},
+            {Launch::kKept, Launch::kKept, Launch::kKept},
+            Launch::kFreshSignals};
+}
+
+}  // namespace dihaptic::app

@@ -1,0 +1,104 @@
+"""Statistical power of an experiment, from simulated people who do the very file that will be run.
+
+    import dihaptic as dh
+
+    result = dh.power("experiments/size-weight.yaml",
+                      "mean(peak_grip_rate_N_s, condition=large) - mean(peak_grip_rate_N_s, condition=small)",
+                      n=[8, 12, 16, 24])
+    result.table            # power, its interval, errors of sign and size, by the number of people
+    result.save("power")    # a page for a preregistration, the figure, the tables
+
+A pool of people is simulated once. Samples are drawn from it with replacement, and each is tested.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..errors import NotThere, error
+from ..program import call
+from ..rehearsing import rehearse
+
+if TYPE_CHECKING:
+    from .result import Power
+
+#: Least people of a pool, or of one of its groups, from whom samples are drawn.
+_LEAST = 10
+
+
+def power(
+    path: str | Path,
+    effect: str,
+    n: Sequence[int] = (8, 12, 16, 24),
+    *,
+    people: int = 200,
+    draws: int = 500,
+    test: str = "",
+    alpha: float = 0.05,
+    ratio: float = 1,
+    attrition: float = 0,
+    population: str | Path = "",
+    seed: int = 1,
+    jobs: int = 1,
+    out: str | Path = "",
+    progress: bool = True,
+) -> Power:
+    """The power of an experiment to find an effect with n people.
+
+    `path` is the experiment's file, of which a pool of `people` is rehearsed into `out`/pool (or continued there); or the
+    folder of a rehearsal, which is then the pool. `effect` is an expression over its tables (power_analysis.effect.Effect):
+    a value of each person that is compared with zero, or the difference of two groups of people. `n` are numbers of people
+    who are recruited, in each group; the second group has `ratio` times as many. The share `attrition` of them is lost
+    before the analysis. `test`: "t" or "wilcoxon" for one value of each person; "welch", "t" or "wilcoxon" (rank sum) for
+    groups; all are two-sided, at the level `alpha`. `draws` samples are made for each n. Raises Error.
+
+    >>> import dihaptic as dh
+    >>> pool = dh.rehearse("experiments/first-trials.yaml", 12, out=f"{folder}/pool", progress=False)
+    >>> result = dh.power(pool.folder, "mean(static_grip_N, block=heavy) - mean(static_grip_N, block=light)", [3, 6])
+    >>> result.table[["n", "power"]].values.tolist()
+    [[3.0, 1.0], [6.0, 1.0]]
+    """
+    # these need matplotlib and SciPy, and take their time to be read
+    from .draws import test_named
+    from .effect import Effect
+    from .pool import read_pool
+    from .result import Power
+
+    asked = Effect(effect)
+    _check(n, draws, alpha, ratio, attrition)
+    name, _ = test_named(test, asked.is_between)
+    folder = Path(path)
+    if not folder.is_dir():
+        into = Path(out or f"power/{folder.stem}_{seed}")
+        pool = rehearse(path, people, jobs=jobs, population=population, seed=seed, out=into / "pool", progress=progress)
+        folder = pool.folder
+    data = read_pool(folder)
+    try:
+        sides = asked.sides(data)
+    except NotThere:  # maybe in a table that only a report makes
+        if "report" in str(path) or any(data.has(table) for table in ("fits", "thresholds")):
+            raise
+        call(["report", str(folder), "--tables"], progress=False)
+        data = read_pool(folder)
+        sides = asked.sides(data)
+    for side, group in zip(sides, asked.groups or [""]):
+        if len(side) < _LEAST:
+            of = f"group {group} of the pool" if group else "the pool"
+            what = f"{of} has {len(side)} people whose value is known"
+            raise error(what, f"Rehearse more people: at least {_LEAST}.", key=effect)
+        if side.std() == 0:
+            raise error("is the same for all people, so that it needs no test", "Name a column that differs.", key=effect)
+    return Power(data, asked, sides, list(n), draws, name, alpha, ratio, attrition, seed)
+
+
+def _check(n: Sequence[int], draws: int, alpha: float, ratio: float, attrition: float) -> None:
+    if not n or any(int(each) != each or each < 3 for each in n):
+        raise error("must be whole numbers of at least 3", "Write e.g. n=[8, 12, 16, 24].", key="n")
+    if any((1 - attrition) * min(1, ratio) * each < 3 for each in n):
+        raise error("leaves fewer than 3 people", "Recruit more, or lose fewer.", key="attrition")
+    if draws < 100:
+        raise error("must be at least 100", "500 samples tell the power within about 0.04.", key="draws")
+    if not 0 < alpha < 1 or not 0 < ratio <= 10 or not 0 <= attrition < 1:
+        raise error("is out of its range", "alpha and attrition are shares; ratio is above 0, at most 10.", key="alpha")

@@ -1,0 +1,48 @@
+"""`python3 -m dihaptic.power_analysis FILE|FOLDER --effect ...`: what `dihaptic power` calls."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from ..errors import Error
+from . import power
+
+
+def main(words: list[str]) -> int:
+    """Computes the power and writes its page. Returns the exit code: 0, 2 for a wrong input, 130 if it was interrupted."""
+    parser = argparse.ArgumentParser(prog="python3 -m dihaptic.power_analysis", allow_abbrev=False)
+    parser.add_argument("path")
+    parser.add_argument("--effect", required=True)
+    parser.add_argument("--n", type=int, nargs="+", default=[8, 12, 16, 24])
+    for name, default in (("people", 200), ("draws", 500), ("seed", 1), ("jobs", os.cpu_count() or 1)):
+        parser.add_argument(f"--{name}", type=int, default=default)
+    for name, share in (("alpha", 0.05), ("ratio", 1.0), ("attrition", 0.0)):
+        parser.add_argument(f"--{name}", type=float, default=share)
+    for name in ("test", "population", "out"):
+        parser.add_argument(f"--{name}", default="")
+    asked = parser.parse_args(words)
+    out = Path(asked.out or f"power/{Path(asked.path).absolute().stem}_{asked.seed}")
+    try:
+        result = power(
+            asked.path, asked.effect, asked.n, people=asked.people, draws=asked.draws, test=asked.test, alpha=asked.alpha,
+            ratio=asked.ratio, attrition=asked.attrition, population=asked.population, seed=asked.seed, jobs=asked.jobs, out=out,
+        )  # fmt: skip
+        page = result.save(out)
+    except KeyboardInterrupt:
+        print("interrupted: the people who are done are kept, and the same command continues", file=sys.stderr)
+        return 130
+    except Error as why:
+        print("\n".join(problem.text() for problem in why.problems), file=sys.stderr)
+        return 2
+    shown = result.table[["n", "power", "low", "high", "wrong_sign", "exaggeration", "half_width"]]
+    print(shown.to_string(index=False, float_format=lambda value: f"{value:.3g}", na_rep="-"))
+    print(result.in_words())
+    print(page)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

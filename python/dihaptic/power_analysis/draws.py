@@ -1,0 +1,149 @@
+"""Draws samples of people from a pool, tests each, and counts how often the test finds the effect."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy import stats
+
+from ..errors import NotThere
+from ..figures.psychophysics import wilson
+
+Array = npt.NDArray[np.float64]
+#: Samples are made in portions of so many, which keeps memory small.
+_PORTION = 2000
+
+
+@dataclass(frozen=True)
+class Found:
+    """What the samples of one size gave."""
+
+    draws: int
+    power: float  #: share of samples whose test is significant
+    low: float  #: 95 % interval of the power (Wilson), from the number of samples
+    high: float
+    wrong_sign: float  #: type S error: share of the significant estimates that have the wrong sign; NaN: none is significant
+    exaggeration: float  #: type M error: mean of the significant estimates' sizes over the size of the effect
+    untested: float  #: share of the samples that have no test, such as one whose people are all alike: they find no effect
+    half_width: float  #: median half width of the test's confidence interval; NaN for ranks
+
+
+def _within_t(x: Array, _: Array | None) -> Array:
+    return np.asarray(stats.ttest_1samp(x, 0, axis=0).pvalue)
+
+
+def _within_ranks(x: Array, _: Array | None) -> Array:
+    return np.asarray(stats.wilcoxon(x, axis=0, zero_method="zsplit").pvalue)
+
+
+def _between_t(x: Array, y: Array | None) -> Array:
+    return np.asarray(stats.ttest_ind(x, y, axis=0).pvalue)
+
+
+def _between_welch(x: Array, y: Array | None) -> Array:
+    return np.asarray(stats.ttest_ind(x, y, axis=0, equal_var=False).pvalue)
+
+
+def _between_ranks(x: Array, y: Array | None) -> Array:
+    return np.asarray(stats.mannwhitneyu(x, y, axis=0, method="asymptotic").pvalue)
+
+
+#: Tests by name, for a value of each person that is compared with zero, and for two groups of people.
+WITHIN: dict[str, Callable[[Array, Any], Array]] = {"t": _within_t, "wilcoxon": _within_ranks}
+BETWEEN: dict[str, Callable[[Array, Any], Array]] = {"welch": _between_welch, "t": _between_t, "wilcoxon": _between_ranks}
+
+
+def test_named(name: str, between: bool) -> tuple[str, Callable[[Array, Any], Array]]:
+    """A test and its name; "": the usual one, t within people and Welch's between groups. Raises NotThere."""
+    known = BETWEEN if between else WITHIN
+    name = name or next(iter(known))
+    if name not in known:
+        of = "two groups" if between else "one value of each person"
+        raise NotThere(name, f"is not a test of {of}", list(known), f"There are {', '.join(known)}.")
+    return name, known[name]
+
+
+def find_effect(
+    pool: list[Array], sizes: list[int], draws: int, test: str, alpha: float, seed: int, spread: float = 1
+) -> Found:
+    """Draws samples with replacement from a pool, and tests each of them (two-sided).
+
+    `pool` has the values of all people, or of those of two groups; `sizes` are the numbers of people in a sample, one for
+    each. `spread` multiplies the deviations of people from the mean of their group. The same seed gives the same samples, and
+    a larger sample has the people of a smaller one, and more: so curves over n are smooth.
+    """
+    pool = [values.mean() + spread * (values - values.mean()) for values in pool]
+    true = pool[0].mean() - (pool[1].mean() if len(pool) == 2 else 0)
+    _, p_of = test_named(test, len(pool) == 2)
+    p, estimates, halves = [], [], []
+    for first in range(0, draws, _PORTION):
+        some = min(_PORTION, draws - first)
+        samples = []  # a row for each person, a column for each sample
+        for side, (values, n) in enumerate(zip(pool, sizes)):
+            rng = np.random.default_rng([seed, side, first])
+            samples.append(values[rng.integers(0, len(values), (n, some))])
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")  # a sample of the same person again and again has no test
+            p.append(p_of(samples[0], samples[1] if len(samples) == 2 else None))
+        estimates.append(samples[0].mean(0) - (samples[1].mean(0) if len(samples) == 2 else 0))
+        halves.append(_half_width(samples, test, alpha))
+    all_p = np.concatenate(p)
+    is_found = all_p < alpha  # not where there is no p
+    found = np.concatenate(estimates)[is_found]
+    low, high = wilson(is_found.sum(), draws)
+    return Found(
+        draws=draws,
+        power=float(is_found.mean()),
+        low=float(low),
+        high=float(high),
+        wrong_sign=float((found * true < 0).mean()) if len(found) and true != 0 else float("nan"),
+        exaggeration=float(np.abs(found).mean() / abs(true)) if len(found) and true != 0 else float("nan"),
+        untested=float(np.isnan(all_p).mean()),
+        half_width=float(np.median(np.concatenate(halves))),
+    )
+
+
+def _half_width(samples: list[Array], test: str, alpha: float) -> Array:
+    """Half the width of the confidence interval of each sample's estimate, by the same test."""
+    if test == "wilcoxon":
+        return np.full(samples[0].shape[1], np.nan)
+    n = [len(sample) for sample in samples]
+    variances = [sample.var(0, ddof=1) for sample in samples]
+    if len(samples) == 1:
+        return np.asarray(stats.t.ppf(1 - alpha / 2, n[0] - 1) * np.sqrt(variances[0] / n[0]))
+    if test == "t":
+        free = n[0] + n[1] - 2
+        pooled = ((n[0] - 1) * variances[0] + (n[1] - 1) * variances[1]) / free
+        return np.asarray(stats.t.ppf(1 - alpha / 2, free) * np.sqrt(pooled * (1 / n[0] + 1 / n[1])))
+    parts = [variance / size for variance, size in zip(variances, n)]
+    with np.errstate(all="ignore"):
+        free = (parts[0] + parts[1]) ** 2 / (parts[0] ** 2 / (n[0] - 1) + parts[1] ** 2 / (n[1] - 1))
+    return np.asarray(stats.t.ppf(1 - alpha / 2, free) * np.sqrt(parts[0] + parts[1]))
+
+
+def smallest_size(power_at: Callable[[int], Found], wanted: float, most: int) -> tuple[int | None, int | None, int | None]:
+    """The smallest n at which the power is as large as wanted, and those at which the ends of its interval are: first the one
+    that may be enough (upper end), then the one that is probably enough (lower end). None: more than `most`."""
+    return (
+        _first(lambda n: power_at(n).power >= wanted, most),
+        _first(lambda n: power_at(n).high >= wanted, most),
+        _first(lambda n: power_at(n).low >= wanted, most),
+    )
+
+
+def _first(is_enough: Callable[[int], bool], most: int) -> int | None:
+    """The smallest n from 3 that is enough, if all larger ones are."""
+    below, n = 2, 3
+    while not is_enough(n):
+        if n >= most:
+            return None
+        below, n = n, min(most, max(n + 1, int(n * 1.5)))
+    while n - below > 1:
+        middle = (below + n) // 2
+        below, n = (below, middle) if is_enough(middle) else (middle, n)
+    return n

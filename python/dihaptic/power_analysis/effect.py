@@ -1,0 +1,188 @@
+"""An effect as an expression over the tables of an experiment: `mean(late, group=a) - mean(late, group=b)`."""
+
+from __future__ import annotations
+
+import ast
+import operator
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from ..errors import NotThere, error
+from ..figures.conditions import counting_trials
+from ..figures.data import SITTING, Data, sitting_columns
+
+#: What a term makes of the values of a person's trials.
+_STATISTICS: dict[str, Callable[[pd.Series], float]] = {
+    "mean": lambda values: float(values.mean()),
+    "median": lambda values: float(values.median()),
+    "sd": lambda values: float(values.std()),
+}
+_OPERATORS: dict[type, Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
+}  # fmt: skip
+#: Tables in which a column is looked for, in this order.
+_TABLES = ["trials", "lifts", "fits", "thresholds", "adaptation", "phases", "episodes"]
+_EXAMPLE = "Write e.g. mean(movement_time_s, block=late) - mean(movement_time_s, block=early)."
+
+
+class Effect:
+    """An effect, with a value for each person.
+
+    A term is `mean`, `median` or `sd` of a column of a table, over the rows that have the named values in other columns:
+    `mean(static_grip_N, mass_g=200, surface="fine sandpaper")`. Terms and numbers are joined by + - * / and parentheses.
+    The column's table is the first that has it of trials, lifts, fits, thresholds, adaptation, phases and episodes; `table=`
+    names another one. Of trials and lifts, the last attempt at each trial is used, without practice and catch trials,
+    unless the term names `kind` or `attempt`. Terms of two groups make an effect between people, which is the left side
+    less the right side: `mean(late, group=a) - mean(late, group=b)`. Raises Error when it cannot be understood.
+
+    >>> from dihaptic import figures
+    >>> from dihaptic.power_analysis.effect import Effect
+    >>> Effect("mean(peak_grip_N, table=lifts) / 2").of_people(figures.read(lift_session)).round(4).tolist()
+    [0.5333]
+    """
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        try:
+            self._tree = ast.parse(text.strip(), mode="eval").body
+        except (SyntaxError, ValueError, RecursionError):
+            raise error("is not an expression", _EXAMPLE, key=text) from None
+        self._check(self._tree)
+        self.groups = list(dict.fromkeys(self._groups_in(self._tree)))
+        if not any(isinstance(node, ast.Call) for node in ast.walk(self._tree)):
+            raise error("has no term, such as mean(movement_time_s)", _EXAMPLE, key=text)
+        if len(self.groups) == 2:
+            tree = self._tree
+            sides = [tree.left, tree.right] if isinstance(tree, ast.BinOp) and isinstance(tree.op, ast.Sub) else []
+            if [set(self._groups_in(side)) for side in sides] != [{group} for group in self.groups]:
+                raise error("compares groups, but is not one group's value less another one's",
+                            "Write e.g. mean(late, group=a) - mean(late, group=b).", key=text)  # fmt: skip
+        if len(self.groups) > 2:
+            raise error(f"names {len(self.groups)} groups", "Compare two of them.", key=text)
+
+    @property
+    def is_between(self) -> bool:
+        """Whether it compares two groups of people; or else each person has a value, which is compared with zero."""
+        return len(self.groups) == 2
+
+    def of_people(self, data: Data) -> pd.Series:
+        """The value of each person, by name; of an effect between groups, that of one's own group. NaN: not known. Raises
+        Error for a column, or a value, that the tables do not have."""
+        if not self.is_between:
+            return self._value(self._tree, data)
+        assert isinstance(self._tree, ast.BinOp)
+        sides = [self._value(side, data) for side in (self._tree.left, self._tree.right)]
+        return pd.concat([side[side.notna()] for side in sides])
+
+    def sides(self, data: Data) -> list[pd.Series]:
+        """The known values of the people of each group; or of all people, where it does not compare groups. Raises Error."""
+        if not self.is_between:
+            return [self._value(self._tree, data).dropna()]
+        assert isinstance(self._tree, ast.BinOp)
+        return [self._value(side, data).dropna() for side in (self._tree.left, self._tree.right)]
+
+    def _check(self, node: ast.expr) -> None:
+        if isinstance(node, ast.BinOp) and type(node.op) in _OPERATORS:
+            self._check(node.left)
+            self._check(node.right)
+        elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+            self._check(node.operand)
+        elif isinstance(node, ast.Call):
+            name = node.func.id if isinstance(node.func, ast.Name) else ast.unparse(node.func)
+            if name not in _STATISTICS:
+                raise NotThere(name, "is not a function of an effect", list(_STATISTICS), f"There are {', '.join(_STATISTICS)}.")
+            if len(node.args) != 1 or any(word.arg is None for word in node.keywords):
+                raise error("needs one column, then conditions such as block=late", _EXAMPLE, key=ast.unparse(node))
+            _word(node.args[0])
+            for word in node.keywords:
+                _word(word.value)
+        elif not (isinstance(node, ast.Constant) and isinstance(node.value, (int, float))):
+            raise error("cannot be part of an effect", _EXAMPLE, key=ast.unparse(node))
+
+    def _groups_in(self, tree: ast.expr) -> list[str]:
+        words = [word for node in ast.walk(tree) if isinstance(node, ast.Call) for word in node.keywords]
+        return [str(_word(word.value)) for word in words if word.arg == "group"]
+
+    def _value(self, node: ast.expr, data: Data) -> Any:
+        if isinstance(node, ast.BinOp):
+            return _OPERATORS[type(node.op)](self._value(node.left, data), self._value(node.right, data))
+        if isinstance(node, ast.UnaryOp):
+            return -self._value(node.operand, data)
+        if isinstance(node, ast.Constant):
+            return node.value
+        assert isinstance(node, ast.Call)
+        return _term(node, data)
+
+
+def _term(node: ast.Call, data: Data) -> pd.Series:
+    """The value of one term for each person."""
+    assert isinstance(node.func, ast.Name)
+    column = str(_word(node.args[0]))
+    chosen = {str(word.arg): _word(word.value) for word in node.keywords}
+    name = str(chosen.pop("table", "")) or _table_of(column, data)
+    table = _rows(data, name, chosen)
+    if column not in table:
+        raise NotThere(column, f"is not a column of {name}", [str(each) for each in table], "")
+    for key, value in chosen.items():
+        if key not in table:
+            raise NotThere(key, f"is not a column of {name}", [str(each) for each in table], "")
+        levels = table[key].dropna().unique()
+        numeric = pd.api.types.is_numeric_dtype(table[key])
+        same = np.isclose(table[key], float(value)) if numeric and _is_number(value) else table[key].astype(str) == str(value)
+        if not same.any():
+            there = [f"{key}={level:g}" if numeric else f"{key}={level}" for level in levels]
+            others = [str(other) for other in table if other != key and (table[other].astype(str) == str(value)).any()]
+            remedy = f"There are {', '.join(there[:12])}." if there else f"The column {key} is empty."
+            if others:
+                remedy = f"Write {others[0]}={value}: it is a value of that column. {remedy}"
+            raise NotThere(f"{key}={value}", f"has no rows in {name}", there, remedy)
+        table = table[same]
+    if not pd.api.types.is_numeric_dtype(table[column]):
+        raise error("has words, of which there is no statistic", "Name a column of numbers.", key=column)
+    known = table[table[column].notna()]
+    values = known.groupby("person")[column].apply(_STATISTICS[node.func.id])
+    return values.reindex(data.people).astype(float)
+
+
+def _rows(data: Data, name: str, chosen: dict[str, Any]) -> pd.DataFrame:
+    """The rows of a table that terms are about."""
+    if not data.has(name):
+        raise NotThere(name, "is not a table of these people", data.tables, f"There are {', '.join(data.tables)}.")
+    if name in ("trials", "lifts") and not {"kind", "attempt"} & set(chosen):
+        return counting_trials(data, name)
+    table = data.table(name)
+    if name == "trials" and "attempt" not in chosen:
+        return table.drop_duplicates([*sitting_columns(table), "trial_num"], keep="last")
+    if "block" not in table and data.has("trials") and "trial_num" in table:  # what describes a trial is in trials.csv
+        trials = data.table("trials")
+        keys = [key for key in (*SITTING, "trial_num", "attempt") if key in table and key in trials]
+        design = [column for column in trials if column not in table or column in keys]
+        return table.merge(trials[design].drop_duplicates(keys), on=keys, how="left")
+    return table
+
+
+def _table_of(column: str, data: Data) -> str:
+    for name in _TABLES:
+        if data.has(name) and column in data.table(name):
+            return name
+    known = dict.fromkeys(str(each) for name in _TABLES if data.has(name) for each in data.table(name))
+    raise NotThere(column, "is not a column of the tables of these people", list(known), "docs/tables.md lists them.")
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float))
+
+
+def _word(node: ast.expr) -> Any:
+    """A name, a text in quotes, or a number."""
+    if isinstance(node, ast.Name):
+        return node.id
+    if isinstance(node, ast.Constant) and isinstance(node.value, (str, int, float)):
+        return node.value
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub) and isinstance(node.operand, ast.Constant):
+        return -node.operand.value
+    raise error("must be a name, a number, or a text in quotes", 'Write e.g. block=late or surface="fine sandpaper".',
+                key=ast.unparse(node))  # fmt: skip

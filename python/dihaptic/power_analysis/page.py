@@ -1,0 +1,182 @@
+"""The figure of a Power, and its page for a preregistration."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from .._facts import version
+from ..figures.saving import is_changed, save, signed, write
+from ..figures.style import COLOURS, QUIET, canvas, drawing
+from ..reports.page import Page
+from ..reports.simulated import limits_of
+
+if TYPE_CHECKING:
+    from .result import Power
+
+#: The width of the power's interval, over pools, above which the pool is called small.
+_MOST_DOUBT = 0.2
+#: Samples of each size for the curves, whose n are about so many.
+_CURVE = 12
+#: What no pool of this program can tell, whatever the experiment.
+_NOT_KNOWN = [
+    "How laboratories differ. A population describes people of one laboratory; groups of real people on one schedule differ by "
+    "more than their people's scatter explains (docs/manual/explanation/simulated-people.md). The power of your laboratory may "
+    "lie outside every interval here.",
+    "Whether the true effect is as large as the simulated one. The intervals say what the numbers of samples and of simulated "
+    "people leave open, and nothing about the model of people.",
+    "Exclusions after the analysis was seen, and other choices that a preregistration is to prevent.",
+]
+
+
+def curve(result: Power) -> pd.DataFrame:
+    """The points of the figure: the power over n for each spread of people, with its interval from the number of draws."""
+    from .result import SPREADS, WANTED
+
+    last = max(result.n)
+    for wanted in result.smallest["n"].dropna():
+        last = max(last, min(int(wanted), 4 * max(result.n)))
+    first = max(3, int(np.ceil(3 / (1 - result.attrition) / min(1, result.ratio))))
+    every = np.unique(np.concatenate([result.n, np.round(np.geomspace(first, last, _CURVE)).astype(int)]))
+    rows = []
+    for spread in SPREADS:
+        for n in every:
+            found = result.at(int(n), spread)
+            own = {"value": found.power, "low": found.low, "high": found.high}
+            rows.append({"of": "power", "spread": spread, "n": int(n), **own})
+    rows += [{"of": "wanted", "value": wanted} for wanted in WANTED]
+    points = pd.DataFrame(rows)
+    points.attrs["mark"] = result.data.mark
+    return points
+
+
+@drawing
+def draw_power(points: pd.DataFrame, *, xlabel: str = "people", size: str = "one column", height_mm: float = 65) -> Figure:
+    """Draws curve(): the power of the pool with its interval, dashed lines for people who differ less and more."""
+    figure, (axes,) = canvas(size, height_mm)
+    lines = points[points["of"] == "power"]
+    for spread, style in ((1.0, "-"), (0.7, "--"), (1.5, ":")):
+        own = lines[lines["spread"] == spread]
+        words = "as simulated" if spread == 1 else f"spread of people times {spread:g}"
+        axes.plot(own["n"], own["value"], style, color=COLOURS[0], lw=1.2 if spread == 1 else 0.8, label=words)
+        if spread == 1:
+            axes.fill_between(own["n"], own["low"], own["high"], color=COLOURS[0], alpha=0.2, linewidth=0)
+    for wanted in points.loc[points["of"] == "wanted", "value"]:
+        axes.axhline(wanted, color=QUIET, lw=0.5)
+    axes.set(xlabel=xlabel, ylabel="power", ylim=(0, 1.02))
+    axes.legend(loc="lower right", frameon=False)
+    return figure
+
+
+def _script(xlabel: str) -> str:
+    """The script that draws the figure anew from power.csv."""
+    text = f'''"""Power over the number of people: draws power.svg, .pdf and .png from power.csv."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from dihaptic import figures
+from dihaptic.power_analysis.page import draw_power
+
+here = Path(__file__).resolve().parent
+points = pd.read_csv(here / "power.csv")
+points.attrs["mark"] = "simulated"  # in the figure's corner
+
+# size: "one column" (89 mm) or "two columns" (183 mm) of a journal
+figure = draw_power(points, xlabel={xlabel!r}, size="one column")
+# The panels are matplotlib's: figure.axes[0].set_ylim(0, 1)
+
+figures.save(figure, here / "power", points)
+'''
+    return text + signed(text)
+
+
+def write_page(result: Power, folder: Path) -> Path:
+    """Writes the page, its figure and its tables into a folder."""
+    who = "people"
+    if result.effect.is_between:
+        who += " in each group" if result.ratio == 1 else f" of group {result.effect.groups[0]}"
+    points = curve(result)
+    xlabel = f"{who} who are recruited" if result.attrition else who
+    script = folder / "power.py"
+    if not is_changed(script):
+        save(draw_power(points, xlabel=xlabel), folder / "power", points)
+        write(script, _script(xlabel).encode())
+    table = result.table
+    write(folder / "power-by-n.csv", table.to_csv(index=False).encode())
+    people = pd.concat([pd.DataFrame({"person": side.index, "group": group, "effect": side.to_numpy()})
+                        for side, group in zip(result.sides, result.effect.groups or [""])])  # fmt: skip
+    write(folder / "people.csv", people.to_csv(index=False).encode())
+    simulated = "Simulated. No person took part." if result.data.is_simulated else ""
+    page = Page(f"Power: {result.data.title}", simulated, f"Made by dihaptic {version()}.")
+    page.heading("Result")
+    page.text(result.in_words())
+    for text in _warnings(result):
+        page.text(text, "warning")
+    page.heading("Power")
+    svg = (folder / "power.svg").read_text(encoding="utf-8")
+    caption = (
+        f"Band: 95 % interval from {result.draws} samples of each size. Broken lines: if people differed less, or more, than "
+        "those who were simulated."
+    )
+    page.figure(svg, "Power over the number of people", caption, "power", points.to_csv(index=False))
+    caption = (
+        "Power with its 95 % interval from the number of samples; its middle 95 % if the pool were other people of the "
+        "population. Of the significant estimates: the share with the wrong sign (type S), and their mean size over the true one "
+        "(type M). Half width: of the confidence interval, the median. Then the power if people's spread were another."
+    )
+    page.table(_shown(result, who), caption, keys=1)
+    smallest = result.smallest.rename(columns={"n": "smallest n", "may_be": "may be enough", "probably": "probably enough"})
+    caption = "The smallest n with this power, and those from which on the upper and the lower end of its interval reach it."
+    page.table(smallest.astype(object).where(smallest.notna(), None), caption)
+    page.heading("What this does not know")
+    for text in _NOT_KNOWN:
+        page.text(text)
+    return write(folder / "power.html", page.html().encode(errors="replace"))
+
+
+def _warnings(result: Power) -> list[str]:
+    """What speaks against using the power as it is."""
+    table, everybody = result.table, len(result.data.people)
+    out = limits_of(result.data)
+    if not result.data.is_simulated:
+        out.append(
+            "The pool consists of people who took part. The power of a study to find the effect in its own data says nothing "
+            "that its p value does not say; to plan another study, name an effect that matters to it."
+        )
+    if (table["untested"] > 0).any():
+        worst = table.loc[table["untested"].idxmax()]
+        out.append(
+            f"Of the samples of {worst['n']:.0f}, {100 * worst['untested']:.2g} % have no test, because their people are all "
+            "alike; they are treated as if they had not found the effect."
+        )
+    lost = everybody - sum(len(side) for side in result.sides)
+    if lost and not result.effect.is_between:
+        out.append(f"For {lost} of {everybody} people of the pool the effect is not known; they are left out.")
+    widest = table.loc[(table["pool_high"] - table["pool_low"]).idxmax()]
+    if widest["pool_high"] - widest["pool_low"] > _MOST_DOUBT:
+        out.append(
+            f"The pool is small: with other {everybody} people of the population, the power of {widest['n']:.0f} would be "
+            f"between {widest['pool_low']:.2f} and {widest['pool_high']:.2f}. Rehearse more people (--people)."
+        )
+    return out
+
+
+def _shown(result: Power, who: str) -> pd.DataFrame:
+    """The table of the page."""
+    table = result.table
+    columns: dict[str, object] = {who: table["n"]}
+    if result.effect.is_between and result.ratio != 1:
+        columns[f"of group {result.effect.groups[1]}"] = [round(result.ratio * n) for n in table["n"]]
+    if result.attrition:
+        columns["analysed"] = table["analysed"]
+    columns["power"] = [f"{row.power:.2f} ({row.low:.2f} to {row.high:.2f})" for row in table.itertuples()]
+    columns["with other pools"] = [f"{row.pool_low:.2f} to {row.pool_high:.2f}" for row in table.itertuples()]
+    columns |= {name.replace("_", " "): table[name] for name in ("wrong_sign", "exaggeration", "half_width")}
+    columns |= {"spread x 0.7": table["spread_0.7"], "spread x 1.5": table["spread_1.5"]}
+    return pd.DataFrame(columns)

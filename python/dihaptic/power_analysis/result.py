@@ -1,0 +1,143 @@
+"""What power() gives: the power of an experiment to find an effect, by the number of people."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from .._facts import version
+from ..figures.data import Data
+from .draws import Array, Found, find_effect, smallest_size
+from .effect import Effect
+
+#: Factors on the spread of people, for the sensitivity of the power to it.
+SPREADS = (0.7, 1.0, 1.5)
+#: Powers for which the smallest number of people is sought.
+WANTED = (0.8, 0.9)
+#: Largest number of people (in each group) that is tried for them.
+MOST = 1000
+#: How often the pool itself is drawn anew, to tell what its size means for the power.
+_POOLS = 100
+
+
+@dataclass(frozen=True)
+class Power:
+    """The power of an experiment to find an effect, by the number of people; made by power()."""
+
+    data: Data  #: of the pool
+    effect: Effect
+    sides: list[pd.Series]  #: the effect of each person of the pool, or of those of each group
+    n: list[int]
+    draws: int
+    test: str
+    alpha: float
+    ratio: float
+    attrition: float
+    seed: int
+    _known: dict[tuple[int, float], Found] = field(default_factory=dict, repr=False)
+
+    def __repr__(self) -> str:
+        return f"<Power of {self.effect.text}: {len(self.sides[0])} simulated people>"
+
+    @property
+    def size(self) -> float:
+        """The effect in the pool, in the unit of its measure."""
+        means = [float(side.mean()) for side in self.sides]
+        return means[0] - means[1] if len(means) == 2 else means[0]
+
+    @property
+    def standardised(self) -> float:
+        """Cohen's d: the effect over the SD of people, of two groups the pooled one."""
+        return self.size / math.sqrt(sum(float(side.var()) for side in self.sides) / len(self.sides))
+
+    def at(self, n: int, spread: float = 1) -> Found:
+        """The power of n people who are recruited (in each group). `spread` multiplies the deviations of people."""
+        if (n, spread) not in self._known:
+            found = find_effect(self._pool, self._sizes(n), self.draws, self.test, self.alpha, self.seed, spread)
+            self._known[n, spread] = found
+        return self._known[n, spread]
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """A row for each n: the power, with its 95 % interval from the number of draws (low, high), and what else the pool's
+        size makes possible (pool_low, pool_high); wrong_sign and exaggeration of significant estimates (errors of type S and
+        M); half_width of the confidence interval; untested, the share of samples without a test; and the
+        power if people differed less, or more (spread_0.7, spread_1.5)."""
+        rows = []
+        for n in self.n:
+            found = self.at(n)
+            low, high = self._interval_of_pool(n)
+            rows.append({
+                "n": n, "analysed": sum(self._sizes(n)), "power": found.power, "low": found.low, "high": found.high,
+                "pool_low": low, "pool_high": high, "wrong_sign": found.wrong_sign, "exaggeration": found.exaggeration,
+                "half_width": found.half_width, "untested": found.untested,
+                **{f"spread_{spread:g}": self.at(n, spread).power for spread in SPREADS if spread != 1},
+            })  # fmt: skip
+        return pd.DataFrame(rows)
+
+    @cached_property
+    def smallest(self) -> pd.DataFrame:
+        """A row for each wanted power, 0.8 and 0.9: the smallest n, and those at which the upper and the lower end of the
+        power's interval reach it (may_be, probably). Missing: more than 1000."""
+        rows = [(wanted, *smallest_size(self.at, wanted, MOST)) for wanted in WANTED]
+        table = pd.DataFrame(rows, columns=["power", "n", "may_be", "probably"])
+        return table.astype({name: "Int64" for name in ("n", "may_be", "probably")})
+
+    def save(self, folder: str | Path) -> Path:
+        """Writes power.html, the figure (power.svg, .pdf, .png), power.csv, and people.csv with each person's effect, into a
+        folder; returns the page. Raises Error."""
+        from .page import write_page
+
+        return write_page(self, Path(folder))
+
+    @property
+    def _pool(self) -> list[Array]:
+        return [side.to_numpy(float) for side in self.sides]
+
+    def _sizes(self, n: int) -> list[int]:
+        """How many people remain of n who are recruited, in each group."""
+        recruited = [n, round(self.ratio * n)] if self.effect.is_between else [n]
+        return [max(3, math.floor((1 - self.attrition) * each + 1e-9)) for each in recruited]
+
+    def _interval_of_pool(self, n: int) -> tuple[float, float]:
+        """The middle 95 % of the power, if the pool were other people of the same population."""
+        rng = np.random.default_rng(self.seed)
+        draws = max(100, self.draws // 5)
+        powers = []
+        for i in range(_POOLS):
+            pool = [values[rng.integers(0, len(values), len(values))] for values in self._pool]
+            powers.append(find_effect(pool, self._sizes(n), draws, self.test, self.alpha, self.seed + i).power)
+        low, high = np.quantile(powers, [0.025, 0.975])
+        return float(low), float(high)
+
+    def in_words(self) -> str:
+        """A paragraph for a preregistration."""
+        who = " and ".join(f"{len(side)} simulated people{f' of group {group}' if group else ''}"
+                           for side, group in zip(self.sides, self.effect.groups or [""]))  # fmt: skip
+        tests = {"t": "a t test", "welch": "Welch's t test", "wilcoxon": "Wilcoxon's test"}
+        each = ""
+        if self.effect.is_between:
+            each = " in each group" if self.ratio == 1 else " in the first group"
+        population = self.data.sample.population or "not named"
+        text = (
+            f"The effect {self.effect.text} was simulated with {who} (population {population}, dihaptic {version()}): "
+            f"{self.size:.3g}, Cohen's d = {self.standardised:.2f}. {self.draws} samples of each size were drawn from them with "
+            f"replacement, and tested by {tests[self.test]} (two-sided, alpha = {self.alpha:g}; seed {self.seed})."
+        )
+        for row in self.smallest.itertuples():
+            if pd.isna(row.n):
+                text += f" More than {MOST} people{each} are needed for a power of {100 * row.power:.0f} %."
+            else:
+                probably = f" ({row.may_be} to {row.probably})" if not pd.isna(row.probably) else ""
+                text += f" {row.n} people{each}{probably} are needed for a power of {100 * row.power:.0f} %."
+        if self.effect.is_between and self.ratio != 1:
+            text += f" The second group, {self.effect.groups[1]}, has {self.ratio:g} times as many."
+        if self.attrition:
+            text += f" These are recruited; {100 * self.attrition:.0f} % of them are expected to be lost."
+        return text
+

@@ -1,0 +1,238 @@
+"""Power from a pool of simulated people, against closed forms and against samples that are drawn here."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+import unittest.mock
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from scipy import stats
+
+os.environ.setdefault("MPLBACKEND", "agg")
+import dihaptic as dh  # noqa: E402
+from dihaptic import figures  # noqa: E402
+from dihaptic.power_analysis.draws import find_effect, smallest_size  # noqa: E402
+from dihaptic.power_analysis.effect import Effect  # noqa: E402
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "test"))
+import needs  # noqa: E402
+import soak  # noqa: E402
+
+DIFFERENCE = "mean(static_grip_N, block=heavy) - mean(static_grip_N, block=light)"
+#: People whose values are normal to the last digit, so that a pool is no source of error.
+NORMAL = stats.norm.ppf((np.arange(20000) + 0.5) / 20000)
+
+
+def of_t(shift, free, alpha):
+    """The power of a two-sided t test whose statistic is (z + shift) / sqrt(chi2 / free): the noncentral t distribution."""
+    scales = np.sqrt(stats.chi2.ppf((np.arange(20000) + 0.5) / 20000, free) / free) * stats.t.ppf(1 - alpha / 2, free)
+    return float(np.mean(stats.norm.sf(scales - shift) + stats.norm.cdf(-scales - shift)))
+
+
+def of_one_sample(d, n, alpha=0.05):
+    """The power with n values whose mean is d of their SD."""
+    return of_t(d * np.sqrt(n), n - 1, alpha)
+
+
+def of_two_samples(d, n, m, alpha=0.05):
+    """The power with two groups of one SD."""
+    return of_t(d * np.sqrt(n * m / (n + m)), n + m - 2, alpha)
+
+
+class Draws(unittest.TestCase):
+    """Each interval is one of 99.9 %: a test of dozens of them fails once in some hundred seeds."""
+
+    def assert_power(self, found, power):
+        self.assertLess(abs(found.power - power), 3.3 * np.sqrt(power * (1 - power) / found.draws) + 1e-3, (found, power))
+
+    def test_t_tests_have_the_power_of_the_noncentral_t(self):
+        for seed, (d, n) in enumerate([(0.3, 40), (0.5, 12), (0.5, 30), (0.8, 8), (0.8, 16), (1.2, 6), (2, 4)]):
+            with self.subTest(d=d, n=n):
+                self.assert_power(find_effect([NORMAL + d], [n], 4000, "t", 0.05, seed), of_one_sample(d, n))
+                self.assert_power(find_effect([NORMAL + d], [n], 4000, "t", 0.01, seed), of_one_sample(d, n, 0.01))
+                for m in (n, 2 * n):
+                    found = find_effect([NORMAL + d, NORMAL], [n, m], 4000, "t", 0.05, seed)
+                    self.assert_power(found, of_two_samples(d, n, m))
+
+    def test_t_tests_agree_with_power_t_test_of_r(self):
+        needs.for_this_test("Rscript", "r-base-core")
+        designs = [(0.3, 20), (0.5, 12), (0.5, 34), (0.8, 8), (0.8, 26), (1.5, 5)]
+        calls = [f'cat(power.t.test(n={n}, delta={d}, sd=1, type="{kind}", strict=TRUE)$power, "\\n")'
+                 for d, n in designs for kind in ("one.sample", "two.sample")]  # fmt: skip
+        said = subprocess.run(["Rscript", "-e", "; ".join(calls)], capture_output=True, text=True, check=True).stdout
+        powers = iter(map(float, said.split()))
+        for d, n in designs:
+            with self.subTest(d=d, n=n):
+                self.assert_power(find_effect([NORMAL + d], [n], 4000, "t", 0.05, 11), next(powers))
+                self.assert_power(find_effect([NORMAL + d, NORMAL], [n, n], 4000, "t", 0.05, 11), next(powers))
+
+    def test_welch_is_close_to_it_with_equal_spreads_and_holds_its_level_without(self):
+        found = find_effect([NORMAL + 0.8, NORMAL], [24, 24], 4000, "welch", 0.05, 1)
+        self.assert_power(found, of_two_samples(0.8, 24, 24))
+        unequal = [3 * NORMAL, NORMAL]
+        self.assert_power(find_effect(unequal, [10, 30], 4000, "welch", 0.05, 1), 0.05)
+        self.assertGreater(find_effect(unequal, [10, 30], 4000, "t", 0.05, 1).power, 0.15)  # which the t test does not
+
+    def test_without_an_effect_one_test_in_twenty_finds_one(self):
+        for seed in range(soak.of(1, 5)):
+            self.assert_power(find_effect([NORMAL], [15], 4000, "t", 0.05, seed), 0.05)
+            self.assert_power(find_effect([NORMAL, NORMAL], [15, 15], 4000, "welch", 0.05, seed), 0.05)
+            found = find_effect([NORMAL, NORMAL], [15, 15], 4000, "wilcoxon", 0.05, seed)
+            self.assertTrue(0.03 < found.power < 0.06, found)
+
+    def test_ranks_have_nearly_the_power_of_t_for_normal_people(self):
+        for pool, sizes in (([NORMAL + 0.8], [20]), ([NORMAL + 0.8, NORMAL], [25, 25])):
+            ranks = find_effect(pool, sizes, 4000, "wilcoxon", 0.05, 3).power
+            t = find_effect(pool, sizes, 4000, "t", 0.05, 3).power
+            self.assertTrue(t - 0.06 < ranks < t + 0.01, (ranks, t))
+
+    def test_errors_of_sign_and_size_are_those_of_a_closed_form(self):
+        # Gelman and Carlin 2014: an effect of 0.1 standard errors' size, here with the spread that is estimated
+        found = find_effect([NORMAL + 0.1], [10], 200000, "t", 0.05, 5)
+        rng = np.random.default_rng(6)
+        x = rng.normal(0.1, 1, (200000, 10))
+        p, mean = stats.ttest_1samp(x, 0, axis=1).pvalue, x.mean(1)
+        self.assertAlmostEqual(found.wrong_sign, (mean[p < 0.05] < 0).mean(), delta=0.02)
+        self.assertAlmostEqual(found.exaggeration, np.abs(mean[p < 0.05]).mean() / 0.1, delta=0.2)
+
+    def test_the_half_width_is_that_of_the_interval(self):
+        found = find_effect([NORMAL + 0.5], [20], 4000, "t", 0.05, 5)
+        self.assertAlmostEqual(found.half_width, stats.t.ppf(0.975, 19) / np.sqrt(20), delta=0.02)
+        self.assertTrue(np.isnan(find_effect([NORMAL], [20], 100, "wilcoxon", 0.05, 5).half_width))
+
+    def test_spread_makes_the_effect_smaller(self):
+        wide = find_effect([NORMAL + 0.8], [12], 4000, "t", 0.05, 2, spread=1.5)
+        self.assert_power(wide, of_one_sample(0.8 / 1.5, 12))
+
+    def test_the_same_seed_gives_the_same_samples(self):
+        self.assertEqual(find_effect([NORMAL + 0.5], [9], 500, "t", 0.05, 4), find_effect([NORMAL + 0.5], [9], 500, "t", 0.05, 4))
+        powers = [find_effect([NORMAL + 0.5], [n], 500, "t", 0.05, 4).power for n in range(5, 40)]
+        self.assertGreater(np.corrcoef(powers, [of_one_sample(0.5, n) for n in range(5, 40)])[0, 1], 0.995)
+
+    def test_the_smallest_size_is_that_of_the_closed_form(self):
+        for d in (0.5, 0.8, 1.5):
+            n, may_be, probably = smallest_size(lambda n, d=d: find_effect([NORMAL + d], [n], 4000, "t", 0.05, 1), 0.8, 1000)
+            exact = next(n for n in range(3, 200) if of_one_sample(d, n) >= 0.8)
+            self.assertLessEqual(may_be, exact)
+            self.assertLessEqual(exact, probably + 1)
+            self.assertTrue(may_be <= n <= probably, (may_be, n, probably))
+        none = smallest_size(lambda n: find_effect([NORMAL], [n], 500, "t", 0.05, 1), 0.8, 50)
+        self.assertEqual(none[0], None)
+
+
+class Pools(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.pool = dh.rehearse("experiments/first-trials.yaml", 12, out=f"{cls.folder.name}/pool", progress=False).folder
+        cls.data = figures.read(cls.pool)
+
+    def refused(self, what, call, kind=dh.Error):
+        with self.assertRaisesRegex(kind, what):
+            call()
+
+    def test_an_effect_is_that_of_pandas(self):
+        trials = pd.read_csv(self.pool / "trials.csv")
+        lifts = pd.read_csv(self.pool / "lifts.csv").merge(trials[["id", "trial_num", "attempt", "kind", "block"]])
+        lifts = lifts[~lifts.kind.isin(["practice", "catch"])].drop_duplicates(["id", "trial_num"], keep="last")
+        means = lifts.groupby(["id", "block"]).static_grip_N.mean().unstack()
+        wanted = means.heavy - means.light
+        pd.testing.assert_series_equal(Effect(DIFFERENCE).of_people(self.data), wanted, check_names=False, rtol=1e-12)
+        ratio = Effect("2 * median(static_grip_N, block='heavy') / mean(static_grip_N, block=light, table=lifts) - 1")
+        medians = lifts[lifts.block == "heavy"].groupby("id").static_grip_N.median()
+        pd.testing.assert_series_equal(ratio.of_people(self.data), 2 * medians / means.light - 1, check_names=False, rtol=1e-12)
+
+    def test_mistakes_are_told(self):
+        for text, what in (
+            ("mean(static_grip_N", "is not an expression"),
+            ("3", "has no term"),
+            ("mean(static_grip_N) ** 2", "cannot be part of an effect"),
+            ("__import__('os')", "is not a function of an effect"),
+            ("mean(a, b)", "needs one column"),
+            ("mean(*a)", "must be a name"),
+            ("means(static_grip_N)", "Did you mean 'mean'"),
+            ("mean(late, group=a) + mean(late, group=b)", "not one group's value less another"),
+            ("mean(x, group=a) - mean(x, group=b) - mean(x, group=c)", "names 3 groups"),
+        ):
+            with self.subTest(text):
+                self.refused(what, lambda text=text: Effect(text))
+        for text, what in (
+            ("mean(static_gripN)", "Did you mean 'static_grip_N'"),
+            ("mean(static_grip_N, block=heavier)", "has no rows in lifts. Did you mean 'block=heavy'"),
+            ("mean(static_grip_N, condition=heavy)", "Write block=heavy: it is a value of that column. The column condition is"),
+            ("mean(static_grip_N, blocks=heavy)", "Did you mean 'block'"),
+            ("mean(outcome)", "has words"),
+            ("mean(static_grip_N, table=lift)", "is not a table of these people"),
+        ):
+            with self.subTest(text):
+                self.refused(what, lambda text=text: Effect(text).of_people(self.data))
+        for options, what in (
+            ({"n": [2]}, "at least 3"), ({"n": []}, "at least 3"), ({"draws": 5}, "at least 100"),
+            ({"alpha": 2}, "out of its range"),
+            ({"test": "welch"}, "is not a test of one value of each person"), ({"attrition": 0.9}, "fewer than 3"),
+        ):  # fmt: skip
+            with self.subTest(options):
+                self.refused(what, lambda options=options: dh.power(self.pool, DIFFERENCE, **options))
+
+    def test_a_pool_is_rehearsed_once_and_continued(self):
+        out = f"{self.folder.name}/made"
+        options = {"n": [4], "draws": 100, "out": out, "progress": False}
+        first = dh.power("experiments/first-trials.yaml", DIFFERENCE, people=10, **options)
+        began = os.stat(f"{out}/pool/sim-003/trials.csv").st_mtime_ns
+        again = dh.power("experiments/first-trials.yaml", DIFFERENCE, people=11, **options)
+        self.assertEqual(os.stat(f"{out}/pool/sim-003/trials.csv").st_mtime_ns, began)
+        self.assertEqual([len(first.sides[0]), len(again.sides[0])], [10, 11])
+        pd.testing.assert_series_equal(first.sides[0], again.sides[0].iloc[:10])
+
+    def test_groups_of_a_population_are_compared(self):
+        population = Path(self.folder.name, "two.yaml")
+        population.write_text(
+            f"title: Two\nbased_on: {Path('populations/adults.yaml').resolve()}\ngroups:\n  - {{ name: control }}\n"
+            "  - name: patients\n    traits: [{ trait: safety_margin, median: 0.55, spread: 0.3 }]\n"
+        )
+        options = {"population": population, "people": 20, "draws": 200, "progress": False, "out": f"{self.folder.name}/groups"}
+        difference = "mean(static_grip_N, group=patients) - mean(static_grip_N, group=control)"
+        result = dh.power("experiments/first-trials.yaml", difference, [5, 10], ratio=1.5, **options)
+        lifts = pd.read_csv(f"{self.folder.name}/groups/pool/lifts.csv")
+        means = lifts.drop_duplicates(["id", "trial_num"], keep="last").groupby(["group", "id"]).static_grip_N.mean()
+        pd.testing.assert_series_equal(result.sides[0], means["patients"], check_names=False, rtol=1e-12)
+        self.assertAlmostEqual(result.size, means["patients"].mean() - means["control"].mean(), delta=1e-12)
+        self.assertEqual(result.test, "welch")
+        self.assertEqual(result.table.analysed.tolist(), [5 + 8, 10 + 15])
+        text = result.save(Path(self.folder.name, "of-groups")).read_text()
+        self.assertIn("The second group, control, has 1.5 times as many.", text)
+        self.assertIn("of group control", text)
+
+    def test_few_people_are_refused(self):
+        few = figures.read(self.pool, people=["sim-001", "sim-002"])
+        with unittest.mock.patch("dihaptic.power_analysis.pool.read_pool", return_value=few):
+            self.refused("has 2 people whose value is known", lambda: dh.power(self.pool, DIFFERENCE))
+
+    def test_the_page_says_what_was_done(self):
+        result = dh.power(self.pool, "mean(preload_s) - 0.09", [6, 12], attrition=0.25, draws=200)
+        page = result.save(Path(self.folder.name, "saved"))
+        text = page.read_text()
+        said = ("Adults", "12 simulated people", "alpha = 0.05", "seed 1", "200 samples", "25 % of them", "How laboratories")
+        for words in said:
+            self.assertIn(words, text)
+        names = sorted(path.name for path in page.parent.iterdir())
+        kinds = ("csv", "html", "pdf", "png", "py", "svg")
+        self.assertEqual(names, ["people.csv", "power-by-n.csv", *(f"power.{kind}" for kind in kinds)])
+        before = (page.parent / "power.svg").read_bytes()
+        (page.parent / "power.svg").unlink()
+        subprocess.run([sys.executable, page.parent / "power.py"], check=True)
+        self.assertEqual((page.parent / "power.svg").read_bytes(), before)
+        people = pd.read_csv(page.parent / "people.csv")
+        self.assertEqual(people.person.tolist(), self.data.people)
+        self.assertAlmostEqual(people.effect.mean(), result.size, delta=1e-9)
+        self.assertEqual(result.table.analysed.tolist(), [4, 9])
+
+
+if __name__ == "__main__":
+    unittest.main()

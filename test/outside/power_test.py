@@ -1,0 +1,73 @@
+"""Power as users of other programs have found it wrong. docs/outside.md has the sources.
+
+Usage: outside/power_test.py PROGRAM, from the project's folder.
+"""
+import os
+import re
+import sys
+import tempfile
+import unittest
+
+sys.path.append("test/cli")
+from program import PROGRAM, dihaptic
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(PROGRAM)), "python"))
+import numpy as np  # noqa: E402
+import pandas as pd  # noqa: E402
+from scipy import stats  # noqa: E402
+
+from dihaptic.power_analysis.draws import find_effect, smallest_size  # noqa: E402
+
+NORMAL = stats.norm.ppf((np.arange(5000) + 0.5) / 5000)
+
+
+class Power(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.pool = os.path.join(folder.name, "pool")
+        dihaptic("rehearse", "experiments/first-trials.yaml", "--people", "10", "--out", cls.pool)
+        dihaptic("collect", cls.pool, "--out", cls.pool)
+
+    def power(self, effect, *options):
+        out = self.enterContext(tempfile.TemporaryDirectory())
+        said = dihaptic("power", self.pool, "--effect", effect, "--draws", "200", "--out", out, *options)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        with open(os.path.join(out, "power.html")) as page:
+            return said.stdout, pd.read_csv(os.path.join(out, "power-by-n.csv")), page.read()
+
+    def test_samples_without_a_test_are_told(self):
+        pool = np.repeat([0.0, 1.0], [38, 2])  # a sample of few people has only zeros most of the time
+        self.assertGreater(find_effect([pool], [4], 1000, "t", 0.05, 1).untested, 0.5)
+        self.assertEqual(find_effect([NORMAL], [4], 1000, "t", 0.05, 1).untested, 0)
+        self.assertTrue((self.power("mean(static_grip_N)", "--n", "8")[1].untested == 0).all())
+
+    def test_a_huge_effect_needs_the_fewest_people(self):
+        sizes = smallest_size(lambda n: find_effect([NORMAL + 7, NORMAL], [n, n], 500, "t", 0.05, 1), 0.8, 1000)
+        self.assertEqual(sizes, (3, 3, 3))
+
+    def test_no_number_is_given_where_none_is_enough(self):
+        sizes = smallest_size(lambda n: find_effect([NORMAL], [n], 500, "t", 0.05, 1), 0.8, 100)
+        self.assertEqual(sizes, (None, None, None))
+
+    def test_a_power_is_never_missing(self):
+        for d in (0.0, 0.5, 0.66, 1, 3, 10):
+            for n in (3, 5, 20, 100):
+                self.assertTrue(0 <= find_effect([NORMAL + d], [n], 200, "t", 0.05, 1).power <= 1)
+
+    def test_the_ratio_is_that_of_the_second_group(self):
+        wide = [3 * NORMAL + 2, NORMAL]  # it is the first group that needs more people
+        few, many = (find_effect(wide, sizes, 4000, "welch", 0.05, 1).power for sizes in ([10, 20], [20, 10]))
+        self.assertGreater(many, few + 0.1)
+        said = dihaptic("power", "--help").stdout
+        self.assertRegex(re.sub(r"\s+", " ", said), "people of the second group for one of the first")
+
+    def test_groups_may_differ_in_spread_and_in_size(self):
+        rng = np.random.default_rng(1)
+        p = stats.ttest_ind(rng.normal(2, 3, (10, 20000)), rng.normal(0, 1, (25, 20000)), equal_var=False).pvalue
+        found = find_effect([3 * NORMAL + 2, NORMAL], [10, 25], 4000, "welch", 0.05, 1)
+        self.assertAlmostEqual(found.power, (p < 0.05).mean(), delta=0.03)
+
+
+unittest.main(argv=sys.argv[:1])
