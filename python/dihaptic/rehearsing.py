@@ -107,7 +107,7 @@ class _Study:
         with self._drawing(1):
             person, rules = _made(self.person, 1, Person), _made(self.between, 1, BetweenTrials)
             if person is not None and people > 1 and _made(self.person, 2, Person) is person:
-                raise error("is one object for all people", "Make a person for each number.", key="person")
+                raise error("is one object for all people", "Return a new Person for each number.", key="person")
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
         except OSError as why:

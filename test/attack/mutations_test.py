@@ -19,7 +19,7 @@ sys.path.append("test/cli")
 from program import PROGRAM, dihaptic, patient
 import soak  # program.py adds its folder to the path
 
-EACH = soak.of(60, 10_000)
+EACH = soak.of(40, 10_000)
 EACH_SESSION = soak.of(30, 2_000)
 BATCH = 50
 #: Processor time that reading a file may take [s].

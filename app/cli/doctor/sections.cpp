@@ -18,7 +18,7 @@
 #include "cli/doctor/ports.h"
 #include "cli/doctor/real_time.h"
 #include "cli/doctor/sound.h"
-#include "common/drawn_report.h"
+#include "common/package.h"
 #include "frame/settings.h"
 
 namespace dihaptic::doctor {
