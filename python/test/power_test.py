@@ -232,6 +232,9 @@ class Pools(unittest.TestCase):
         self.assertEqual(people.person.tolist(), self.data.people)
         self.assertAlmostEqual(people.effect.mean(), result.size, delta=1e-9)
         self.assertEqual(result.table.analysed.tolist(), [4, 9])
+        self.assertIn("How much preload s scatters over trials and over people was never compared", text)
+        alike = dh.power(self.pool, "mean(loading_s, trial_num=3) - mean(loading_s, trial_num=4)", [4], draws=100)
+        self.assertIn("is larger than experiments find", alike.save(Path(self.folder.name, "alike")).read_text())
 
 
 if __name__ == "__main__":

@@ -24,6 +24,8 @@ def main(words: list[str]) -> int:
     for name in ("test", "population", "out"):
         parser.add_argument(f"--{name}", default="")
     asked = parser.parse_args(words)
+    from .page import warnings_of  # needs matplotlib
+
     out = Path(asked.out or f"power/{Path(asked.path).absolute().stem}_{asked.seed}")
     try:
         result = power(
@@ -40,6 +42,8 @@ def main(words: list[str]) -> int:
     shown = result.table[["n", "power", "low", "high", "wrong_sign", "exaggeration", "half_width"]]
     print(shown.to_string(index=False, float_format=lambda value: f"{value:.3g}", na_rep="-"))
     print(result.in_words())
+    for text in warnings_of(result):
+        print(f"warning: {text}", file=sys.stderr)
     print(page)
     return 0
 

@@ -64,6 +64,12 @@ class Effect:
             raise error(f"names {len(self.groups)} groups", "Compare two of them.", key=text)
 
     @property
+    def columns(self) -> list[str]:
+        """Names of the columns of its terms."""
+        calls = [node for node in ast.walk(self._tree) if isinstance(node, ast.Call)]
+        return list(dict.fromkeys(str(_word(call.args[0])) for call in calls))
+
+    @property
     def is_between(self) -> bool:
         """Whether it compares two groups of people; or else each person has a value, which is compared with zero."""
         return len(self.groups) == 2

@@ -12,12 +12,18 @@ from matplotlib.figure import Figure
 from .._facts import version
 from ..figures.saving import is_changed, save, signed, write
 from ..figures.style import COLOURS, QUIET, canvas, drawing
+from ..figures.words import words_of
 from ..reports.page import Page
+from ..reports.results import listed
 from ..reports.simulated import limits_of
 
 if TYPE_CHECKING:
     from .result import Power
 
+#: Measures whose means and spreads over people were compared with people's (src/person/README.md): of rotations.
+_COMPARED = {"baseline", "early", "late", "clamp_first", "clamp_last", "compensation", "catch", "washout_first", "rebound"}
+#: Cohen's d above which an effect within people is larger than experiments find.
+_LARGE = 3
 #: The width of the power's interval, over pools, above which the pool is called small.
 _MOST_DOUBT = 0.2
 #: Samples of each size for the curves, whose n are about so many.
@@ -116,7 +122,7 @@ def write_page(result: Power, folder: Path) -> Path:
     page = Page(f"Power: {result.data.title}", simulated, f"Made by dihaptic {version()}.")
     page.heading("Result")
     page.text(result.in_words())
-    for text in _warnings(result):
+    for text in warnings_of(result):
         page.text(text, "warning")
     page.heading("Power")
     svg = (folder / "power.svg").read_text(encoding="utf-8")
@@ -140,10 +146,22 @@ def write_page(result: Power, folder: Path) -> Path:
     return write(folder / "power.html", page.html().encode(errors="replace"))
 
 
-def _warnings(result: Power) -> list[str]:
+def warnings_of(result: Power) -> list[str]:
     """What speaks against using the power as it is."""
     table, everybody = result.table, len(result.data.people)
     out = limits_of(result.data)
+    unknown = [words_of(name) for name in result.effect.columns if name not in _COMPARED]
+    if unknown and result.data.is_simulated:
+        out.append(
+            f"How much {listed(unknown)} scatters over trials and over people was never compared with real people. If simulated "
+            "people scatter too little, fewer people seem to be enough: read the power with people's spread times 1.5, or look "
+            "up the spread in a published study."
+        )
+    if abs(result.standardised) > _LARGE:
+        out.append(
+            f"An effect of {abs(result.standardised):.1f} standard deviations of people (Cohen's d) is larger than experiments "
+            "find: simulated people are too much alike in this measure, and the power says nothing."
+        )
     if not result.data.is_simulated:
         out.append(
             "The pool consists of people who took part. The power of a study to find the effect in its own data says nothing "
