@@ -33,7 +33,7 @@ def read_table(file: str | Path) -> pd.DataFrame:
     >>> lifts.attrs["units"]["peak_grip_N"]
     'N'
     >>> lifts.attrs["meanings"]["peak_grip_N"]
-    'peak of the mean over digits, from touch to lowering'
+    'peak of the grip (mean over digits), from touch to lowering'
     """
     path = Path(file)
     if unreadable := why_unreadable(path, _MOST_TABLE):

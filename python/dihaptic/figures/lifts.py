@@ -234,7 +234,7 @@ def lift_curves(
 
     >>> from dihaptic import figures
     >>> points = lift_curves(figures.read(lift_session))
-    >>> list(dict.fromkeys(points["quantity"])), points["lifts"].max()
+    >>> list(dict.fromkeys(points["quantity"])), int(points["lifts"].max())
     (['grip force', 'load force', 'grip / load', 'height'], 1)
     """
     if align not in MOMENTS:

@@ -175,7 +175,7 @@ class _Reader:
         path = position[::every]
         if not np.isfinite(path).all():
             return None
-        along = (target - start) / way
+        along = np.asarray((target - start) / way, np.float64)
         channel = row.get("movement_channel") == 1
         speed = np.abs(velocity @ along) if channel else np.linalg.norm(velocity, axis=1)
         onset = _onset(speed, position, way, self.movement, self.session.tick)
@@ -264,7 +264,7 @@ def _onset(speed: Array, position: Array, way: float, options: dict[str, Any], t
     pause = round(float(options.get("end_still_s", 0)) / tick)
     start, before = 0, False
     while True:
-        peak, last = _first_stroke(speed[start:].tolist())
+        peak, last = _first_stroke([*map(float, speed[start:])])
         peak, last = start + peak, start + last
         threshold = float(least) if least is not None else float(options.get("onset_share", 0.05)) * speed[peak]
         slow = np.flatnonzero(speed[start:peak] < threshold)
@@ -284,7 +284,7 @@ def _onset(speed: Array, position: Array, way: float, options: dict[str, Any], t
 def _end(speed: Array, peak: int, threshold: float, pause: int) -> int:
     """The tick after the peak from which on the speed stays below the threshold for more than a pause."""
     slow = 0
-    for i, value in enumerate(speed[peak:].tolist(), peak):
+    for i, value in enumerate(map(float, speed[peak:]), peak):
         slow = slow + 1 if value < threshold else 0
         if slow > pause:
             return i - pause

@@ -42,7 +42,7 @@ def wilson(yes: Any, n: Any) -> tuple[Any, Any]:
     """Wilson's 95 % interval of a share: `yes` out of `n` (numbers, or arrays of one shape; n > 0).
 
     >>> low, high = wilson(8, 10)
-    >>> round(low, 3), round(high, 3)
+    >>> float(round(low, 3)), float(round(high, 3))
     (0.49, 0.943)
     """
     z = special.ndtri(0.975)

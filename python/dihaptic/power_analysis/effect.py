@@ -40,8 +40,8 @@ class Effect:
 
     >>> from dihaptic import figures
     >>> from dihaptic.power_analysis.effect import Effect
-    >>> Effect("mean(peak_grip_N, table=lifts) / 2").of_people(figures.read(lift_session)).round(4).tolist()
-    [0.5333]
+    >>> Effect("mean(peak_grip_N, table=lifts) / 2").of_people(figures.read(lift_session)).round(2).tolist()
+    [0.53]
     """
 
     def __init__(self, text: str) -> None:

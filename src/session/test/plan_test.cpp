@@ -35,7 +35,7 @@ TEST(ShippedFiles, AreInOrder) {
                 // so
                 const bool arbitrary =
                     p.severity == Severity::warning &&
-                    p.text().find("do not treat its figures as human data") != std::string::npos;
+                    p.text().find("do not treat their figures as human data") != std::string::npos;
                 const bool said = testing::read_file(file).find("arbitrary") != std::string::npos;
                 EXPECT_TRUE(arbitrary && said) << p.text();
             }
