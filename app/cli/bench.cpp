@@ -15,7 +15,7 @@ struct GraspOptions {
     bool json = false;
 };
 
-/// The measured setup and, in the readable output, the setups compared with it.
+/// The setup to be measured and, for the readable output, the setups to compare it with.
 std::vector<measure::BenchSetup> compared(const GraspOptions& options) {
     std::vector<measure::BenchSetup> out{options.setup};
     const bool rigid = options.setup.settings.proxy.kind == scene::ProxyKind::rigid;
@@ -76,8 +76,8 @@ void add_grasp(CLI::App& bench) {
     });
 }
 
-/// Benches that only developers need are in a separate program; a user who looks for one here is
-/// told so.
+/// Developers' benchmarks are in a separate program; a user who looks for one of them here is told
+/// where it is.
 void add_moved(CLI::App& bench) {
     for (const char* name : {"friction", "scale", "heap", "contact", "solvers", "jitter", "view"}) {
         auto* command = bench.add_subcommand(name)->group("")->allow_extras();

@@ -42,8 +42,8 @@ struct Key {
     auto operator<=>(const Key&) const = default;
 };
 
-/// Throws Error unless a folder belongs to the first folder's rehearsal or, with --join-seeds, to a
-/// rehearsal that differs only in its seed.
+/// Throws Error unless a folder belongs to the same rehearsal as the first folder or, with
+/// --join-seeds, to a rehearsal that differs only in its seed.
 void check_same(const CollectOptions& options, const std::string& first_folder,
                 const Rehearsal& first, const std::string& folder, const Rehearsal& other) {
     Rehearsal same_seed = other;
@@ -57,31 +57,31 @@ void check_same(const CollectOptions& options, const std::string& first_folder,
                       : "Collect sessions of one experiment and one version only.");
 }
 
-/// The rehearsal of the latest command, which requested the most people, and its folder.
+/// The most recently requested rehearsal, whose command asked for the most people, and its folder.
 struct Wanted {
     std::string folder;
     Rehearsal rehearsal;
 };
 
 struct Found {
-    std::map<Key, std::string> people;      ///< each person's session
-    std::map<Key, std::string> unfinished;  ///< folder of each session that has not ended
+    std::map<Key, std::string> people;      ///< folder of each person's session
+    std::map<Key, std::string> unfinished;  ///< folder of each unfinished session
     std::map<std::string, Wanted> wanted;   ///< by seed
     std::vector<std::string>
-        others;  ///< folders of sessions that do not belong to a rehearsed person
-    std::vector<Problem> problems;                  ///< problems in people's folders
-    std::map<std::string, std::string> identities;  ///< folder of each session's identity
-    std::vector<std::string> unsealed;              ///< folders of sessions without seals
+        others;  ///< folders of sessions that do not belong to a person of the rehearsal
+    std::vector<Problem> problems;                  ///< problems found in people's folders
+    std::map<std::string, std::string> identities;  ///< maps a session's identity to its folder
+    std::vector<std::string> unsealed;              ///< folders of sessions that have no seal
 };
 
-/// The contents of a rehearsal's folder.
+/// The contents of a rehearsal folder.
 struct Content {
     std::vector<std::string> people;      ///< their identifiers
-    std::vector<std::string> unfinished;  ///< identifiers of people whose sessions have not ended
+    std::vector<std::string> unfinished;  ///< identifiers of people whose sessions are unfinished
     std::vector<std::string> others;  ///< names of folders with sessions that belong to no person
 };
 
-/// Whether a folder has a name like a person's, e.g. "sim-003".
+/// Whether a folder's name has the form of a person's identifier, e.g. "sim-003".
 bool is_persons(const std::string& name) {
     const std::string first = person_id(1);
     const std::string_view stem = std::string_view(first).substr(0, first.find('-') + 1);
@@ -107,7 +107,8 @@ Content content_of(const std::string& folder) {
     return out;
 }
 
-/// Adds a person, unless the person's folder differs from the rehearsal's result.
+/// Adds a person, and the problems found in the person's folder. Throws Error when a person appears
+/// twice.
 void add_person(Found& found, const std::string& folder, const std::string& id,
                 const Rehearsal& rehearsal) {
     const std::string session = folder + "/" + id;
@@ -161,9 +162,9 @@ Found find_people(const CollectOptions& options) {
     return found;
 }
 
-/// Throws Error with all faults in people's folders, because a table that lacked a person, or
-/// listed one twice, would look like any other. Reports facts that cannot be checked in older
-/// folders.
+/// Throws Error with all faults found in people's folders, because a table that lacked a person, or
+/// listed a person twice, would look like any other. Reports what cannot be checked in folders
+/// written by older versions.
 void check_whole(Found& found) {
     if (!found.unsealed.empty() && found.unsealed.size() < found.identities.size()) {
         for (const std::string& session : found.unsealed) {
@@ -185,7 +186,7 @@ void check_whole(Found& found) {
         found.unsealed.size() == 1 ? "its" : "their");
 }
 
-/// The missing people of a seed, by shard.
+/// The missing people of a seed, grouped by shard.
 std::map<int, std::vector<std::string>> missing_of(const Found& found, const std::string& seed,
                                                    const Asked& asked) {
     std::map<int, std::vector<std::string>> out;
@@ -196,7 +197,7 @@ std::map<int, std::vector<std::string>> missing_of(const Found& found, const std
     return out;
 }
 
-/// Prints the command that runs these shards of a rehearsal.
+/// Prints the command that runs the given shards of a rehearsal.
 void print_command(const Wanted& wanted, const std::vector<int>& shards) {
     const auto command = command_of(wanted.folder, wanted.rehearsal);
     if (!command) {
@@ -212,7 +213,7 @@ void print_command(const Wanted& wanted, const std::vector<int>& shards) {
                command_for(wanted.folder, asked, shards));
 }
 
-/// Lists the people who are left out, and the command for the requested ones.
+/// Lists the people who are left out, and prints the command that runs the requested people.
 void print_left_out(const Found& found) {
     auto others = found.unfinished;
     for (const auto& [seed, wanted] : found.wanted) {
@@ -246,12 +247,12 @@ void print_left_out(const Found& found) {
     }
 }
 
-/// How closely the contacts of all sessions were solved.
+/// Collects how accurately the contacts of all sessions were solved.
 class Contacts {
   public:
     void add(const recording::SessionInfo& info) {
         ++sessions_;
-        if (!info.convergence) return;  // not recorded before version 0.3
+        if (!info.convergence) return;  // recorded only since version 0.3
         const recording::Convergence& one = *info.convergence;
         ++known_;
         ticks_ += one.ticks;
@@ -286,8 +287,8 @@ class Contacts {
     double held_residual_ = 0;
 };
 
-/// The collected tables. Each row starts with seed, group and id, and ends with what moved the
-/// hand.
+/// The collected tables. Each row starts with the seed, the group and the id, and ends with the
+/// source of the hand's motion.
 class Collection {
   public:
     explicit Collection(const std::map<Key, std::string>& people) {
@@ -305,7 +306,7 @@ class Collection {
         contacts_.add(info);
     }
 
-    /// Returns the names of the written files.
+    /// Writes the tables into a folder and returns the names of the files.
     std::vector<std::string> write(const std::string& folder) const {
         std::vector<std::string> out;
         for (const auto& [name, table] : tables_) {
@@ -318,8 +319,8 @@ class Collection {
     const Contacts& contacts() const { return contacts_; }
 
   private:
-    /// Each trait has a column, even if some people lack it: people moved by Python may belong to
-    /// different classes.
+    /// Adds a column for each of the person's traits, even if other people lack it: people defined
+    /// in Python may belong to different classes.
     void note_traits(const Node& person) {
         for (const auto& entry : person.entries) {
             if (entry.key == "id" || entry.key == "group" || entry.key == "partner") continue;
@@ -338,7 +339,8 @@ class Collection {
         return out;
     }
 
-    /// Appends a session's table. Throws Error when its header differs from earlier ones.
+    /// Appends a session's table. Throws Error when its header differs from that of an earlier
+    /// table.
     void append(const TextTable& table) {
         TextTable& all = tables_[table.name];
         std::vector<Table::Column> header;
@@ -358,7 +360,7 @@ class Collection {
         }
     }
 
-    std::vector<std::string> traits_;  // columns of people.csv
+    std::vector<std::string> traits_;  // trait columns of people.csv
     std::vector<std::string> front_;
     std::map<std::string, TextTable> tables_;
     Contacts contacts_;

@@ -1,4 +1,4 @@
-// The commands of the program, each a function that adds itself to the command line.
+// The commands of the program. Each command is a function that adds itself to the command line.
 #pragma once
 
 #include <string>
@@ -32,7 +32,7 @@ void add_new(CLI::App& app);
 void add_schema(CLI::App& app);
 void add_doctor(CLI::App& app);
 
-/// The command line as typed.
+/// Returns the command line as typed.
 std::string command_line();
 
 }  // namespace dihaptic::cli

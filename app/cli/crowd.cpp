@@ -19,8 +19,8 @@ std::string what_became(int status) {
     return stop_requested ? "interrupted" : "failed";
 }
 
-/// The message about a person's process that failed. A process that fails because the disk is full
-/// leaves none.
+/// The error message of a person's process that failed. A process that fails because the disk is
+/// full leaves no message.
 std::string why_failed(const CrowdWork& work, const std::string& id) {
     const std::string messages = work.messages(id);
     if (!messages.empty() || stop_requested) return messages;
@@ -28,13 +28,13 @@ std::string why_failed(const CrowdWork& work, const std::string& id) {
                        shell_file(work.out));
 }
 
-/// Does the work for people, as many at a time as requested.
+/// Runs the processes of all people, at most as many at a time as requested.
 class Crowd {
   public:
     Crowd(const CrowdWork& work, const std::vector<std::string>& people)
         : work_(work), people_(people), line_("rehearsing") {}
 
-    /// Returns the text about people whose sessions failed.
+    /// Returns one text for each person whose session failed.
     std::vector<std::string> run() {
         while (!running_.empty() || (next_ < people_.size() && !stop_requested)) {
             while (static_cast<int>(running_.size()) < work_.jobs && next_ < people_.size() &&
@@ -60,7 +60,8 @@ class Crowd {
             fail(id, "failed", e.what());
         }
     }
-    /// Another program may have done this person's work in the meantime.
+    /// Checks again a person whose turn was skipped: another program may have done the work
+    /// meanwhile.
     void look_again(const std::string& id) {
         try {
             if (work_.is_done(id)) {

@@ -7,7 +7,7 @@
 namespace dihaptic::cli {
 namespace {
 
-/// Prints each section as soon as it has been checked.
+/// Checks the sections one after the other, and prints each as soon as it has been checked.
 void report() {
     std::string heading;
     bool usable = true;
@@ -43,14 +43,14 @@ void add_doctor(CLI::App& app) {
     auto* command = app.add_subcommand(
         "doctor", "List parts that this machine lacks for experiments, with a command for each");
     auto section = std::make_shared<std::string>();
-    command->add_option("--section", *section)->group("");  // used by the processes started here
+    command->add_option("--section", *section)->group("");  // for the processes started below
     command->footer(
         "\nNothing moves, and nothing is changed. Checks real time, devices, graphics, sound, "
         "the disk\nand the parts of Dihaptic. Returns 0 if sessions on simulated devices can be "
         "run, otherwise 1.\n"
         "\nExample:\n  dihaptic doctor");
     command->callback([section] {
-        tell_companion_waits(nullptr);  // the report names parts that hang
+        tell_companion_waits(nullptr);  // the report itself names the parts that hang
         if (section->empty()) {
             report();
         } else {

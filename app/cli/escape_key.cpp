@@ -43,11 +43,11 @@ void EscapeKey::listen(std::atomic<bool>& pressed, ValueRing<char>& keys) {
         std::array<char, 64> typed;
         const ssize_t count = read(STDIN_FILENO, typed.data(), typed.size());
         if (count <= 0) {
-            pressed.store(true);  // the terminal is closed, and the operator has no more control
+            pressed.store(true);  // the terminal was closed, so the operator has lost control
             return;
         }
-        // arrows and function keys start with Escape, so they stop the session too, which is
-        // harmless
+        // the codes of arrow and function keys start with Escape, so they stop the session too,
+        // which is harmless
         if (std::find(typed.begin(), typed.begin() + count, kEscape) != typed.begin() + count)
             pressed.store(true);
         else

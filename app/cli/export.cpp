@@ -17,7 +17,7 @@ struct Options {
     std::string psych_ds;
     std::string names;
     std::string out;
-    StudyData study;  ///< used in place of a session
+    StudyData study;  ///< exported instead of a session, if SESSION is a study
 };
 
 void tell_log(const std::vector<std::string>& wrong) {

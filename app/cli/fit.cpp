@@ -13,10 +13,10 @@
 namespace dihaptic::cli {
 namespace {
 
-/// The result of a fit, for people and for programs.
+/// The result of a fit, printed as text or, for programs, as JSON.
 struct Fitted {
     analysis::Parameters parameters;
-    /// Further figures, for people and for programs.
+    /// Further figures, printed with the parameters.
     std::vector<std::pair<const char*, double>> others;
     std::string note;
 
@@ -38,7 +38,7 @@ struct Fitted {
     }
 };
 
-/// Reads a user's table with these columns, and prints its warnings.
+/// Reads a table from the user that must have these columns, and prints its warnings.
 CsvFile given(const std::string& file, std::initializer_list<const char*> columns,
               const char* remedy) {
     Diagnostics diagnostics;
@@ -64,7 +64,7 @@ struct Measured {
     int count = 0;  ///< number of trials with a measured value
 };
 
-/// Throws Error when fewer trials than `least` were measured.
+/// Throws Error when fewer than `least` trials have a measured value.
 Measured read_measured(const CsvFile& table, int least, const char* parameters) {
     Measured out;
     for (size_t i = 0; i < table.rows(); ++i) {
@@ -90,7 +90,7 @@ std::vector<model::AdaptationTrial> read_trials(const CsvFile& table) {
             throw Error(table.place(i), "clamp", fmt::format("is '{}'", clamp),
                         "Write 1 if no error was shown, whatever the person did, and 0 elsewhere.");
         }
-        // a person learns nothing from the perturbation in a clamp trial
+        // in a clamp trial, nothing is learned from the perturbation
         const double perturbation = clamp == "1"
                                         ? 0
                                         : number(table, i, "perturbation",
@@ -138,7 +138,7 @@ struct PsychometricOptions {
     analysis::PsychometricFitSettings settings;
 };
 
-/// The answers of a table, whose column `yes` contains 1 or "yes", and 0 or "no".
+/// Reads the answers from a table whose column `yes` contains 1 or "yes", or 0 or "no".
 std::vector<analysis::Answer> read_answers(const std::string& file) {
     const CsvFile table =
         given(file, {"level", "yes"},
@@ -169,7 +169,7 @@ Fitted fit_psychometric(const PsychometricOptions& options) {
                     fit.shape_unknown ? "; the answers do not determine the shape" : "")};
 }
 
-/// A command of `fit` for trials of adaptation.
+/// Adds a command to `fit` that fits a curve to adaptation trials.
 void add_curve(CLI::App& fit, const std::string& name, const std::string& what,
                const std::string& columns, Fitted (*find)(const std::string&)) {
     auto* command = fit.add_subcommand(name, what);

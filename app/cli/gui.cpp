@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kProgram = "dihaptic-gui";
 
-/// Replaces this process by the window's program.
+/// Replaces this process with the window program.
 void run(const std::vector<std::string>& files, const std::string& out, double sync) {
     const auto is_set = [](const char* name) {
         const char* value = std::getenv(name);

@@ -15,8 +15,8 @@ namespace {
 
 std::string typed;
 
-/// Prints first steps when the program is called without arguments. `program` is its name as typed,
-/// so that each line can be typed as printed.
+/// Prints the first steps when the program is called without arguments. `program` is the program's
+/// name as typed, so that the printed lines can be typed as they are.
 void say_what_to_do(const std::string& program) {
     struct Line {
         std::string command;
@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) cli::typed += " " + shell_word(argv[i]);
     if (argc <= 1) {
         cli::say_what_to_do(argc == 1 ? shell_file(argv[0]) : "dihaptic");
-        return cli::kBadInput;  // a script whose arguments are empty must not seem to succeed
+        return cli::kBadInput;  // a script that passes empty arguments must not seem to succeed
     }
 
     CLI::App app(

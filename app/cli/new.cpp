@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 struct StudyFile {
     const char* name;
     std::string_view text;
-    const char* schema = nullptr;  ///< schema with which editors complete and check it
+    const char* schema = nullptr;  ///< schema with which editors complete and check the file
 };
 
 std::array<StudyFile, 4> study_files() {
@@ -39,7 +39,7 @@ bool is_usual(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
 }
 
-/// Checks that every shell takes the name literally. Throws Error, which suggests a similar one.
+/// Checks that every shell takes the name literally. Throws an Error that suggests a similar name.
 void check_name(const std::string& name) {
     const bool plain = std::all_of(name.begin(), name.end(), is_usual);
     if (plain && !name.empty() && name.front() != '-' && name.front() != '.') return;
@@ -52,7 +52,7 @@ void check_name(const std::string& name) {
                             near.empty() ? "my-study" : near));
 }
 
-/// The path of the new study. Throws Error when the study cannot be made there.
+/// Returns the path of the new study. Throws Error when the study cannot be made there.
 fs::path place_of(std::string path) {
     while (path.size() > 1 && path.back() == '/') path.pop_back();
     const fs::path folder(path);
@@ -68,7 +68,8 @@ fs::path place_of(std::string path) {
                 fmt::format("Make it first: mkdir -p '{}'.", above.string()));
 }
 
-/// Makes the folder under another name first, so that no incomplete folder ever has the final name.
+/// Makes the folder under a temporary name first, so that an incomplete folder never has the final
+/// name.
 void make_study(const fs::path& folder) {
     std::optional<Output> study;
     try {

@@ -1,4 +1,4 @@
-// The text of the files in new_study/, which the build puts into the program.
+// The contents of the files in new_study/, which the build embeds in the program.
 #pragma once
 
 #include <string_view>

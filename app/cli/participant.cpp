@@ -21,7 +21,7 @@ struct ParticipantOptions {
     std::vector<std::string> facts;
     std::string reason;
     std::string key_file, name, contact;
-    bool with_key = false;  // --key was given
+    bool with_key = false;  // whether --key was given
     bool keep_data = false, delete_data = false;
 };
 
@@ -29,7 +29,8 @@ std::string group_text(const study::StudyFile& study, const study::Member& membe
     return study.allocation.concealed ? "concealed" : member.group;
 }
 
-/// Freezes the study's files with its first participant; later, throws Error if they have changed.
+/// Freezes the study's files when the first participant is added; for later participants, throws
+/// Error if the files have changed.
 void freeze_or_check(const study::StudyFile& study, const std::string& id) {
     session::StudyVersion now = session::present_version(study);
     session::check_unchanged(study, now);
@@ -48,7 +49,7 @@ void read_facts(ParticipantOptions& options) {
     }
 }
 
-/// The file of names, if one was given.
+/// The file with participants' names; nullopt if none was given.
 std::optional<study::KeyFile> names_of(const ParticipantOptions& options,
                                        const study::StudyFile& study,
                                        study::KeyFile::Missing missing) {
@@ -90,7 +91,7 @@ void add(ParticipantOptions& options) {
     person.added = recording::iso_now();
     person.version = static_cast<int>(session::versions_of(study).size());
     roster.participants.push_back(person);
-    // this comes first: if the name cannot be written, nobody is added
+    // names come first: if the name cannot be written, no participant is added
     if (names) names->add({person.id, options.name, options.contact});
     study::log(study, "add", person.id, study.shown_group(person.group));
     study::write_roster(study, roster);
@@ -108,7 +109,7 @@ study::Next next_of(const study::StudyFile& study, const study::Member& member) 
                            study::seconds_of(recording::iso_now()));
 }
 
-/// A participant's state in a few words.
+/// The state of a participant in a few words.
 std::string state_of(const study::StudyFile& study, const study::Member& member) {
     if (!member.takes_part())
         return fmt::format("withdrew {}{}", member.withdrawn.substr(0, 10),
@@ -122,7 +123,8 @@ std::string state_of(const study::StudyFile& study, const study::Member& member)
     return fmt::format("next: {}{}", name, next.against.empty() ? "" : ", not now");
 }
 
-/// The state, or why it cannot be known: a damaged recording does not hide the other participants.
+/// The participant's state, or the reason why it cannot be determined: a damaged recording does not
+/// hide the other participants.
 std::string state_or_fault(const study::StudyFile& study, const study::Member& member) {
     try {
         return state_of(study, member);
@@ -200,7 +202,7 @@ void show(const ParticipantOptions& options) {
     for (const std::string& why : next_of(study, member).against) line("", why);
 }
 
-/// Deletes the participant's name from the file of names; returns whether there was one.
+/// Deletes the participant's name from the file of names. Returns whether the file contained it.
 bool delete_name(const ParticipantOptions& options, const study::StudyFile& study) {
     std::optional<study::KeyFile> names =
         names_of(options, study, study::KeyFile::Missing::is_refused);
@@ -252,10 +254,10 @@ void accept(const ParticipantOptions& options) {
     const study::StudyFile study = session::checked_study(options.file, diagnostics);
     diagnostics.throw_if_errors();
     const study::StudyLock lock(study);
-    const study::Roster roster = study::read_roster(study);  // the groups of all participants exist
+    const study::Roster roster = study::read_roster(study);  // checks that all groups exist
     session::StudyVersion now = session::present_version(study);
     const auto versions = session::versions_of(study);
-    if (versions.empty()) session::check_unchanged(study, now);  // versions lost, or none made yet
+    if (versions.empty()) session::check_unchanged(study, now);  // versions lost, or none yet
     const std::string what = versions.empty() ? "" : session::changed(versions.back(), now);
     if (what.empty()) {
         throw Error({options.file, 0}, "",
@@ -279,7 +281,7 @@ void accept(const ParticipantOptions& options) {
 
 using Shared = std::shared_ptr<ParticipantOptions>;
 
-/// The option --key. `what`: what happens to the names, for its help.
+/// Adds the option --key. `what`: what happens to the names, for the option's help text.
 CLI::Option* add_key(CLI::App& command, const Shared& options, const char* what) {
     return command
         .add_option("--key", options->key_file,

@@ -24,7 +24,7 @@ void make_picture(const PictureOptions& options) {
         int64_t count = 0;
         while (const frame::Frame* frame = showing.next()) {
             end = seconds(frame->time);
-            // the newest frame at that time
+            // `shown` is already the newest frame at that time
             if (end > time + 1e-9 && count > 0) break;
             shown = *frame;
             drawer.follow(shown);

@@ -29,7 +29,7 @@ struct PowerOptions {
     std::string out;
 };
 
-/// The command of the Python package; the values of options are texts that it reads again.
+/// The command line for the Python package, which parses the values of the options again.
 std::vector<std::string> words_of(const PowerOptions& o) {
     std::vector<std::string> out{o.file,
                                  "--effect=" + o.effect,
@@ -59,7 +59,7 @@ void power(PowerOptions options) {
     Launch launch = app::python_launch(package, "dihaptic.power_analysis.__main__");
     const std::vector<std::string> words = words_of(options);
     launch.arguments.insert(launch.arguments.end(), words.begin(), words.end());
-    std::fflush(stdout);  // before the child's own lines
+    std::fflush(stdout);  // must appear before the child's output
     Child python;
     if (const int failed = python.start(launch); failed != 0)
         throw Error(

@@ -20,8 +20,8 @@ struct RegisterOptions {
     std::string out;
 };
 
-/// The screen's pose as touched by a simulated finger: displaced from that in the file, so that the
-/// command has a result to show.
+/// The screen at the pose at which a simulated finger touches it: displaced from the pose in the
+/// file, so that the command has a result to show.
 display::Display misplaced(const display::Display& display) {
     display::Display out = display;
     const Vec3 about = display.at({0.5, 0.5});

@@ -35,15 +35,15 @@ struct RehearseOptions {
     std::optional<person::Population> population;
     int people = 1;
     int jobs = 1;
-    int slurm = 0;          ///< number of shards for Slurm; 0: run here
-    std::string container;  ///< Apptainer file whose program runs the shards; empty: this program
+    int slurm = 0;          ///< number of shards for Slurm; 0 to run here
+    std::string container;  ///< Apptainer file whose program runs the shards; "" for this program
     bool real_objects = false;
     bool keep_recordings = false;
 };
 
 struct Shard {
     int number = 1;  ///< from 1
-    int of = 1;      ///< number of shards
+    int of = 1;      ///< total number of shards
 };
 
 Shard parse_shard(const std::string& text) {
@@ -59,13 +59,13 @@ Shard parse_shard(const std::string& text) {
     return shard;
 }
 
-/// Runs one person's session, in a separate process. Returns its exit status.
+/// Runs one person's session, in the process started for it. Returns the exit status.
 int run_person(const RehearseOptions& options, const std::string& id,
                const session::UnfinishedFolder& place) {
     try {
         dup2(place.messages(), STDOUT_FILENO);
         dup2(place.messages(), STDERR_FILENO);
-        if (place.is_done()) {  // just completed by another program
+        if (place.is_done()) {  // another program has just completed the session
             place.remove();
             return kOk;
         }
@@ -108,10 +108,10 @@ std::string usual_folder(const session::Request& request) {
     return fmt::format("rehearsals/{}_{}", fs::path(request.file).stem().string(), request.seed);
 }
 
-/// A shard's people.
+/// The people of a shard.
 struct Roster {
     std::vector<std::string> waiting;
-    int there = 0;  ///< number of people whose sessions were already complete
+    int there = 0;  ///< number of people whose sessions were already complete at the start
 };
 
 Roster roster_of(const RehearseOptions& options, const Shard& shard) {
@@ -145,7 +145,7 @@ CrowdWork work_of(const RehearseOptions& options) {
     return work;
 }
 
-/// The command that runs the sessions of all these people, from any folder.
+/// The command that runs the sessions of all people of this rehearsal, from any folder.
 std::string command_again(const RehearseOptions& options) {
     return RehearseCommand{options.request.file,
                            options.people,
@@ -159,7 +159,7 @@ std::string command_again(const RehearseOptions& options) {
         .text();
 }
 
-/// Reads and checks everything, and claims the folder. Returns the experiment's title and the
+/// Reads and checks all files, and claims the folder. Returns the experiment's title and the
 /// request.
 std::pair<std::string, Asked> prepare(RehearseOptions& options, const Shard& shard) {
     options.request.simulate = true;
@@ -213,7 +213,7 @@ void check_container(const RehearseOptions& options) {
     }
 }
 
-/// Submits to Slurm the shards with missing people.
+/// Submits the shards with missing people to Slurm.
 void rehearse_by_slurm(RehearseOptions& options) {
     if (options.slurm > options.people) {
         throw Error({"--slurm", 0}, "",
@@ -243,7 +243,7 @@ void rehearse_by_slurm(RehearseOptions& options) {
         *job, options.out, shell_file(options.out));
 }
 
-/// Rehearses a study, unless the file is not one.
+/// Rehearses the file as a study. Returns false if the file is not a study.
 bool rehearse_as_study(const RehearseOptions& options, const CLI::App& command) {
     if (task::kind_of(options.request.file) != task::FileKind::study) return false;
     for (const char* option : {"--shard", "--slurm", "--container"}) {

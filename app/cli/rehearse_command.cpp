@@ -24,9 +24,9 @@ std::string word(const std::string& file) {
     return shell_word(whole(file));
 }
 
-/// The words that start the program, which is either this one or that in a container.
+/// The words that start the program: this program, or the program in a container.
 std::string program(std::string container) {
-    // set inside a container; a folder if Apptainer has unpacked the file for this command alone
+    // set inside a container; a folder if Apptainer has unpacked the file just for this command
     const char* const here = std::getenv("APPTAINER_CONTAINER");
     std::error_code unreadable;
     if (container.empty() && here != nullptr && fs::is_regular_file(here, unreadable))
@@ -35,14 +35,14 @@ std::string program(std::string container) {
     return "apptainer exec " + word(container) + " dihaptic";
 }
 
-/// A number from 1 to `most`; nullopt if the word is not one.
+/// Parses a number from 1 to `most`; nullopt if the word is not such a number.
 std::optional<int> number(const std::string& word, int most) {
     const auto out = whole_number<int>(word);
     return out && *out >= 1 && *out <= most ? out : std::nullopt;
 }
 
-/// Reads the option at `words[at]`, and its value, into `command`. Returns the index of the word
-/// after them; nullopt if there is no such option, or if its value is invalid.
+/// Reads the option at `words[at]` and its value into `command`. Returns the index of the word that
+/// follows; nullopt if the option is unknown or its value is invalid.
 std::optional<size_t> take(const std::vector<std::string>& words, size_t at,
                            RehearseCommand& command) {
     const std::string& option = words[at];
@@ -60,7 +60,7 @@ std::optional<size_t> take(const std::vector<std::string>& words, size_t at,
         if (!jobs) return std::nullopt;
         command.jobs = *jobs;
     } else if (option != "--people" && option != "--seed" && option != "--out") {
-        return std::nullopt;  // these three are known from elsewhere
+        return std::nullopt;  // command_of() sets these three from other sources
     }
     return at + 2;
 }
@@ -68,7 +68,7 @@ std::optional<size_t> take(const std::vector<std::string>& words, size_t at,
 std::optional<RehearseCommand> parse(const std::string& text) {
     auto words = shell_words(text);
     if (words && words->size() > 4 && (*words)[0] == "apptainer" && (*words)[1] == "exec")
-        // left out, because a container may be a stranger's program
+        // the container is left out, because its program may come from a stranger
         words->erase(words->begin(), words->begin() + 3);
     if (!words || words->size() < 3 || (*words)[1] != "rehearse" || !(*words)[2].starts_with('/'))
         return std::nullopt;

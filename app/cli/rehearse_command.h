@@ -1,7 +1,7 @@
-// The command that runs the sessions of a rehearsal's people. It is kept in rehearsal.yaml so that
-// `dihaptic collect` can print it when people are missing. That file may come from a stranger, and
-// the command will be copied into a shell, so only a newly composed command of this form is ever
-// shown.
+// The command that runs the sessions of a rehearsal's simulated people. It is kept in
+// rehearsal.yaml so that `dihaptic collect` can print it when people are missing. That file may
+// come from a stranger, and the user will copy the command into a shell, so the printed command is
+// always composed anew from the checked parts of the stored one.
 #pragma once
 
 #include <cstdint>
@@ -17,22 +17,22 @@ struct RehearseCommand {
     int people = 0;
     std::string seed;
     std::string out;         ///< folder
-    std::string population;  ///< file; empty: the program's own
+    std::string population;  ///< population file; empty for the program's own
     bool real_objects = false;
     bool keep_recordings = false;
     int jobs = 1;
-    std::string container;  ///< Apptainer file with the program; empty: this program
+    std::string container;  ///< Apptainer file with the program; empty for this program
 
-    /// The command to type in any folder. It starts this program, which may itself be in a
-    /// container, or the program in `container`.
+    /// The command as text that can be typed in any folder. The command starts this program, which
+    /// may itself be in a container, or the program in `container`.
     std::string text() const;
 };
 
-/// The Python equivalent, in place of a command.
+/// Printed in place of a command when the rehearsal was started from Python.
 inline constexpr const char* kByPython = "dihaptic.rehearse() of Python, as before";
 
 /// The command for all people of the rehearsal in `folder`, composed from its rehearsal.yaml;
-/// nullopt if that has no command of this form.
+/// nullopt if rehearsal.yaml contains no command of this form.
 std::optional<std::string> command_of(const std::string& folder,
                                       const session::Rehearsal& rehearsal);
 

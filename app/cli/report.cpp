@@ -19,10 +19,11 @@ struct ReportOptions {
     std::vector<std::string> paths;
     std::string rehearsed;
     std::string out;
-    bool tables = false;  // tables only, no page
+    bool tables = false;  // write only the tables, not the page
 };
 
-/// The folder with the sessions of a study's participants. Throws Error when there is none yet.
+/// The folder with the sessions of a study's participants. Throws Error when the folder does not
+/// exist yet.
 std::string sessions_of(const StudyData& data) {
     const std::string folder = study_of(data).data + "/sessions";
     if (!std::filesystem::is_directory(folder))
@@ -31,7 +32,7 @@ std::string sessions_of(const StudyData& data) {
     return folder;
 }
 
-/// Throws Error when the options do not go together.
+/// Throws Error when the options contradict each other.
 void check_options(const ReportOptions& options) {
     const std::string& first = options.paths.front();
     const bool one = options.paths.size() == 1;
@@ -52,7 +53,7 @@ void check_options(const ReportOptions& options) {
                     "Name one with --out, or add --tables.");
 }
 
-/// Makes the folder for the page. Throws Error when this fails.
+/// Makes the folder for the page. Throws Error when the folder cannot be made.
 void make_folder(const std::string& folder) {
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
@@ -61,7 +62,7 @@ void make_folder(const std::string& folder) {
                     "Name a folder in which you may write with --out.");
 }
 
-/// Writes the tables of all paths, and reports what is wrong with the sessions.
+/// Writes the tables for all paths, and reports what is wrong with the sessions.
 analysis::ReportResult write_tables_of(const ReportOptions& options) {
     analysis::ReportResult result;
     {

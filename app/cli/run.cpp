@@ -40,14 +40,14 @@ struct SessionOptions {
     std::string population_file;
     bool real_objects = false;
     std::string between;
-    std::string despite;    ///< reason to begin a study's session against its rules
-    std::string unstudied;  ///< an option that was given, and is not possible for a study
-    /// Seed of a study's simulated person; if empty, the session's seed is used.
+    std::string despite;    ///< reason for starting a study's session against the study's rules
+    std::string unstudied;  ///< a given option that is not allowed for a study
+    /// Seed for drawing a study's simulated person; if unset, the session's seed is used.
     std::optional<uint64_t> person_seed;
 };
 
-/// Progress in words, e.g. "trial 12 of 96"; empty without trials. `share`: share of completed
-/// trials.
+/// Progress in words, e.g. "trial 12 of 96"; empty if there are no trials. `share`: share of
+/// completed trials.
 std::string trial_at(const session::Plan& plan, double share) {
     if (!plan.task) return "";
     const size_t all = plan.task->trials.size();
@@ -71,12 +71,12 @@ class Console {
         run.stuck = [this](const std::string& message) {
             escape_->restore();
             fmt::print(stderr, "\nerror: {}\n", message);
-            std::_Exit(kFailed);  // an orderly end would wait for the stuck thread
+            std::_Exit(kFailed);  // an orderly exit would wait for the stuck thread
         };
     }
 
-    /// Makes the session check, before it costs a person an hour, whether the calibration of real
-    /// devices is still valid.
+    /// Makes the session check at its start, before it costs a person an hour, whether the
+    /// calibration of real devices is still valid.
     void check_calibration(const session::Plan& plan, session::RunOptions& run) {
         const auto fingers = scene::finger_names(plan.scene);
         if (!escape_ || !escape_->listens() || !rig::can_check_together(plan.rig, fingers)) return;
@@ -84,7 +84,7 @@ class Console {
     }
 
   private:
-    /// Checks the calibration with endpoints that the person holds together; returns warnings.
+    /// Checks the calibration while the person holds the endpoints together; returns warnings.
     std::vector<Problem> check(const session::Plan& plan, devices::DeviceGroup& devices) {
         struct Skipped {};
         rig::Guide guide;
@@ -118,15 +118,15 @@ class Console {
     std::optional<app::NoSuspension> no_suspension_;
 };
 
-/// Whether a file has a task for a person; otherwise the file's script moves the hand.
+/// Whether a file contains a task for a person; otherwise, a script in the file moves the hand.
 bool has_task(const std::string& file) {
     if (task::kind_of(file) != task::FileKind::experiment) return false;
     Diagnostics ignored;  // problems are reported when the plan is made
     return task::read_experiment(file, ignored).task.has_value();
 }
 
-/// Asks on the terminal for missing facts about the person, and asks again if the answer contains
-/// characters that cannot be recorded, such as the code of an arrow key.
+/// Asks on the terminal for missing information about the person, and repeats a question if the
+/// answer contains characters that cannot be recorded, such as the code of an arrow key.
 void ask(recording::Participant& participant) {
     if (isatty(STDIN_FILENO) == 0) return;
     const auto question = [](const char* text, std::string& answer) {
@@ -187,7 +187,7 @@ void run_plan(session::Plan plan, session::RunOptions run) {
     console.check_calibration(plan, run);
     if (plan.movement) print_movement(*plan.movement, 12);
     if (run.clock == session::Clock::real) {
-        // reported before the session costs a person an hour, not after
+        // reported before the session has cost a person an hour, not after
         const int priority = plan.settings.real_time_priority;
         const auto refusals = servo::try_real_time(priority);
         if (refusals.any()) fmt::print("note: {}\n", servo::describe(refusals, priority));
@@ -229,7 +229,8 @@ const char* outcome_of(const analysis::SessionFigures& figures, bool interrupted
     return interrupted ? "interrupted" : "done";
 }
 
-/// A movement's row in summary.csv, in SI units. A movement that cannot be run has no figures.
+/// The figures of a movement, in SI units, for its row in summary.csv. A movement that cannot be
+/// run has no figures.
 struct MovementFigures {
     std::string movement;
     std::string outcome = "refused";
@@ -264,7 +265,7 @@ struct MovementFigures {
     }
 };
 
-/// Finds the object's episodes.
+/// Finds the episodes in which the object was handled.
 void find_handling(MovementFigures& out, const std::vector<analysis::Episode>& episodes) {
     out.held = out.slid = out.flown = 0;
     for (const analysis::Episode& e : episodes) {
@@ -277,7 +278,7 @@ void find_handling(MovementFigures& out, const std::vector<analysis::Episode>& e
     }
 }
 
-/// Runs one movement of a batch.
+/// Runs one movement of a batch and returns its figures.
 MovementFigures run_movement(const SessionOptions& options, const std::string& name) {
     const session::Plan plan = session::make_plan(options.request);
     const session::Recorded session = session::record(plan, options.run, stop_requested);
@@ -325,8 +326,8 @@ std::vector<std::string> movements_in(const std::string& folder) {
     return files;
 }
 
-/// Runs a folder of movements, with a session and a row of the summary for each. The summary is
-/// written after every movement, so that it is complete up to there if the next one fails.
+/// Runs all movements in a folder, with one session and one row of the summary for each. The
+/// summary is written after every movement, so that nothing is lost if the next movement fails.
 void run_batch(SessionOptions& options) {
     const Console console(options.run);
     const std::vector<std::string> files = movements_in(options.request.movement);
@@ -365,7 +366,7 @@ void run_batch(SessionOptions& options) {
     if (refused > 0 || stop_requested) exit_code = kFailed;
 }
 
-/// Adds the settings that have their own option.
+/// Adds the settings that were given by options of their own.
 void add_settings(SessionOptions& options) {
     if (!options.solver.empty()) options.request.set.push_back("dynamics.solver=" + options.solver);
     if (!options.coupling.empty())
@@ -374,8 +375,8 @@ void add_settings(SessionOptions& options) {
     if (options.rate > 0) options.request.set.push_back(fmt::format("rate_Hz={}", options.rate));
 }
 
-/// Takes the next session of the participant in a study, unless the file is not a study. Returns
-/// the folder of a session to be resumed; empty if there is none.
+/// Prepares the participant's next session in a study; does nothing if the file is not a study.
+/// Returns the folder of a session to be resumed; empty if there is none.
 std::string take_turn(SessionOptions& options) {
     if (task::kind_of(options.request.file) != task::FileKind::study) {
         if (options.despite.empty()) return "";
@@ -428,7 +429,7 @@ void run(SessionOptions& options) {
         real || options.clock == "real" ? session::Clock::real : session::Clock::virtual_clock;
     options.run.command = command_line();
     const bool task = has_task(options.request.file);
-    // only a person can be asked
+    // only a human participant can be asked
     if (real && task) ask(options.run.participant);
     if (options.simulate && task)
         options.run.participant.id = recording::simulated_id(options.run.participant.id);

@@ -1,4 +1,4 @@
-// The tables of one session, for commands that join those of many.
+// The tables of one session, for commands that join the tables of many sessions.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,12 @@
 
 namespace dihaptic::cli {
 
-/// A table in a session's folder, with the meaning of its columns; nullopt if it lacks the file.
-/// Throws Error when it cannot be read.
+/// A table from a session's folder, with the meaning of its columns; nullopt if the folder does not
+/// contain the table. Throws Error when the table cannot be read.
 std::optional<TextTable> table_of(const std::string& session, const char* name);
 
-/// trials.csv, lifts.csv, corrections.csv, adaptation.csv, fits.csv and thresholds.csv of a
-/// session, as far as it has them. Throws Error when one cannot be read.
+/// The tables trials.csv, lifts.csv, corrections.csv, adaptation.csv, fits.csv and thresholds.csv
+/// of a session, as far as they exist. Throws Error when a table cannot be read.
 std::vector<TextTable> tables_of(const std::string& session);
 
 }  // namespace dihaptic::cli

@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using session::Asked;
 
-/// Part of a file's name on a line that starts with #SBATCH, in quotes. sbatch expands sequences
-/// after a %, and cannot express the characters that are refused here.
+/// Part of a file name in quotes, for a line that starts with #SBATCH. sbatch expands sequences
+/// that start with %, and cannot express the characters that are refused here.
 std::string sbatch_name(const std::string& name) {
     std::string out;
     for (const char letter : name) {
@@ -38,7 +38,7 @@ std::string sbatch_name(const std::string& name) {
     return out;
 }
 
-/// The line of the script that runs a shard.
+/// The line of the Slurm script that runs a shard.
 std::string task_line(const Asked& asked) {
     return fmt::format("exec {} --shard \"$SLURM_ARRAY_TASK_ID/{}\"\n", asked.command,
                        asked.shards);
@@ -46,7 +46,8 @@ std::string task_line(const Asked& asked) {
 
 constexpr std::string_view kShell = "#!/bin/sh\n";
 
-/// The effect of a script: all its lines except comments, which include Slurm's #SBATCH lines.
+/// The lines of a script that have an effect, i.e. all but comments. Slurm's #SBATCH lines count as
+/// comments.
 std::string commands_of(const std::string& script) {
     std::string out;
     std::istringstream lines(script);
@@ -57,8 +58,8 @@ std::string commands_of(const std::string& script) {
     return out;
 }
 
-/// Whether the folder has a script for these shards, perhaps with added #SBATCH lines. A script
-/// that does anything else must not be submitted unread, because the folder may come from a
+/// Whether the folder contains a script for these shards, possibly with added #SBATCH lines. A
+/// script that does anything else must not be submitted unread, because the folder may come from a
 /// stranger.
 bool has_script(const std::string& folder, const Asked& asked) {
     const std::string script = slurm_script(folder);
@@ -89,7 +90,7 @@ std::string slurm_script(const std::string& folder) {
 
 void write_slurm_script(const std::string& folder, const Asked& asked) {
     const fs::path whole = fs::absolute(folder).lexically_normal();
-    make_folders(folder, "slurm");  // Slurm does not create the folder for its logs
+    make_folders(folder, "slurm");  // Slurm does not create the folder of its logs
     if (has_script(folder, asked)) return;
     write_file(
         fmt::format("{3}"
@@ -145,7 +146,7 @@ std::optional<std::string> submit(const std::string& folder, const Asked& asked,
         exit_code = kBadInput;
         return std::nullopt;
     }
-    return said.substr(0, said.find_first_of(";\n"));  // "123", or "123;cluster"
+    return said.substr(0, said.find_first_of(";\n"));  // sbatch prints "123" or "123;cluster"
 }
 
 std::string command_for(const std::string& folder, const Asked& asked,

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kLayers{"path",    "forces",    "contacts", "grip-axis",
                                        "handles", "workspace", "joints",   "hand"};
 
-/// Adds the box to which hands are confined: the rig's wall or, without one, the workspace of the
-/// finger's device.
+/// Adds the box to which a finger is confined: the rig's wall or, if there is none, the workspace
+/// of the finger's device.
 void add_workspace(Showing& showing, const std::string& finger, const std::optional<Vec3>& reach) {
     const rig::Rig& rig = showing.rig;
     if (rig.wall && showing.workspaces.empty())
@@ -60,7 +60,7 @@ Showing open_plan(const std::string& file) {
     };
     auto run = std::make_shared<Run>();
     session::Request request;
-    request.order_number = 1;  // a picture needs an order of trials, but no particular person's
+    request.order_number = 1;  // a picture needs some order of trials, whichever participant has it
     request.file = file;
     if (session::on_real_devices(request)) {
         throw Error({file, 0}, "rig", "pictures can be made only with simulated devices",
@@ -107,7 +107,7 @@ std::pair<int, int> pixels(const std::string& size) {
 }  // namespace
 
 Showing open_showing(const std::string& file) {
-    std::error_code unreadable;  // ignored here: reading the file reports it
+    std::error_code unreadable;  // ignored here, because reading the file reports the error
     return fs::is_directory(file, unreadable) || fs::path(file).filename() == "raw.log"
                ? open_session(file)
                : open_plan(file);

@@ -1,4 +1,4 @@
-// The content shown by the commands picture and video: a recorded session, or a scene or an
+// The content shown by the commands `picture` and `video`: a recorded session, or a scene or an
 // experiment with the simulated hand.
 #pragma once
 
@@ -20,16 +20,16 @@ struct Showing {
     std::string title;
     scene::Scene scene;
     rig::Rig rig;
-    std::vector<view::Workspace> workspaces;    ///< workspaces of devices, where known
-    double duration = 0;                        ///< planned duration [s]; 0: unknown
-    bool recorded = false;                      ///< whether this is a recorded session
-    std::function<const frame::Frame*()> next;  ///< the next frame; null at the end
+    std::vector<view::Workspace> workspaces;    ///< workspaces of devices, where they are known
+    double duration = 0;                        ///< planned duration [s]; 0 if unknown
+    bool recorded = false;                      ///< whether the content is a recorded session
+    std::function<const frame::Frame*()> next;  ///< returns the next frame; null at the end
 };
 
-/// `file`: a scene or an experiment, or a session's folder. Throws Error with its faults.
+/// Opens a scene, an experiment or a session's folder. Throws Error with all faults of the file.
 Showing open_showing(const std::string& file);
 
-/// The options that both commands have.
+/// The options common to both commands.
 struct ViewOptions {
     std::string file;
     std::string camera;
@@ -38,16 +38,16 @@ struct ViewOptions {
     std::vector<std::string> show;
     std::string out;
 };
-/// Throws Error when the output would overwrite the file shown or another file of that session, or
-/// cannot be written.
+/// Throws Error when the output file would overwrite the file shown or another file of the same
+/// session, or when it cannot be written.
 void check_no_input(const ViewOptions& options);
 void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& options);
 
-/// Draws frames according to the options.
+/// Draws frames as the options request.
 class Drawer {
   public:
     Drawer(const Showing& showing, const ViewOptions& options);
-    /// Extends the object's path; call it for every frame.
+    /// Extends the drawn path of the object; must be called for every frame.
     void follow(const frame::Frame& frame);
     Image draw(const frame::Frame& frame);
     int width() const { return offscreen_->width(); }
@@ -55,7 +55,7 @@ class Drawer {
 
   private:
     view::Camera camera_;
-    std::optional<display::Display> display_;  // drawn in place of the camera's view
+    std::optional<display::Display> display_;  // drawn instead of the camera's view
     view::Overlays overlays_;
     bool path_wanted_ = false;
     int object_ = -1;

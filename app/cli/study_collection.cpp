@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first columns of each row. Experiments have columns of their own, so the names of these
-/// begin with study_, except for those that no experiment may use anyway.
+/// The first columns of each row. To distinguish them from the columns of experiments, their names
+/// begin with study_, unless no experiment may use the name anyway.
 const std::vector<Table::Column> kFront{
     {"seed", "seed of the session"},
     {"group", "group of the study, or the code that conceals it"},
@@ -31,8 +31,8 @@ const std::vector<Table::Column> kFront{
     {"study_condition", "condition of the session; empty: it has none"},
     {"study_version", "version of the study's files, from 1"}};
 
-/// Tables of different experiments, one below the other: a cell is empty where its session lacks
-/// the column.
+/// Joins tables of different experiments, one below the other. A cell is empty if its session's
+/// table lacks the column.
 class JoinedTable {
   public:
     void add(const std::vector<std::string>& front, const TextTable& table) {
@@ -67,7 +67,7 @@ class JoinedTable {
         const auto [at, is_new] = places_.emplace(column.name, columns_.size());
         if (is_new) columns_.push_back(column);
         std::string& known = columns_[at->second].description;
-        // experiments may mean different things by one name
+        // experiments may use the same name with different meanings
         if (known.find(column.description) == std::string::npos)
             known += (known.empty() ? "" : "; or: ") + column.description;
         return at->second;
@@ -82,7 +82,7 @@ std::string group_of(const study::StudyFile& study, const study::Member& member,
     return reveal ? member.group : study.shown_group(member.group);
 }
 
-/// The columns before each row of a session's tables.
+/// The cells that precede each row of a session's tables.
 std::vector<std::string> front_of(const CompleteSession& session, const std::string& group) {
     const auto info = recording::SessionFolder::open_tables(session.folder).read_info();
     const recording::InStudy place = info.in_study.value_or(recording::InStudy{});
@@ -140,7 +140,7 @@ study::StudyFile study_of(const StudyData& data) {
 
 namespace {
 
-/// A recording and those that it resumes, the first one first.
+/// A recording and all those that it continues, ordered from first to last.
 std::vector<std::string> parts_of(const std::string& folder) {
     std::vector<std::string> out{folder};
     for (;;) {
@@ -155,7 +155,7 @@ std::vector<std::string> parts_of(const std::string& folder) {
     }
 }
 
-/// Folders of recordings of people who are not in the list of participants, in words.
+/// Describes, in words, the recordings of people who are not in the list of participants.
 std::vector<std::string> strangers(const study::StudyFile& study, const study::Roster& roster) {
     std::vector<std::string> out;
     std::error_code none;
@@ -171,7 +171,8 @@ std::vector<std::string> strangers(const study::StudyFile& study, const study::R
     return out;
 }
 
-/// Describes a missing session, with its unmet needs if the previous session exists.
+/// Describes a missing session; if the previous session exists, also the requirements that it does
+/// not meet.
 std::string missing_session(const study::SessionSpec& session, const study::Member& member,
                             const study::Visit* before) {
     std::string out = fmt::format("missing: {} of {}", session.name, member.id);
@@ -186,9 +187,9 @@ size_t column_of(const TextTable& table, const std::string& name) {
     return static_cast<size_t>(found - table.columns.begin());
 }
 
-/// The tables of a session. Those of trials have the rows of all its parts; the lifts of earlier
-/// parts are added here, if trials.csv has their attempts. If an interrupted attempt occurs again
-/// in a later part, the later one is taken.
+/// The tables of a session. The tables of trials contain the rows of all parts of the session; the
+/// lifts of earlier parts are added here, if trials.csv contains their attempts. If an interrupted
+/// attempt was repeated in a later part, the later attempt is taken.
 std::vector<TextTable> tables_of_parts(const CompleteSession& session) {
     std::vector<TextTable> out = tables_of(session.folder);
     if (session.parts.size() < 2) return out;
@@ -210,7 +211,7 @@ std::vector<TextTable> tables_of_parts(const CompleteSession& session) {
         const auto attempt_of = attempts_in(*lifts);
         std::erase_if(lifts->rows,
                       [&](const auto& row) { return attempts.erase(attempt_of(row)) == 0; });
-        out.insert(out.begin() + others, std::move(*lifts));  // keeps the order of the parts
+        out.insert(out.begin() + others, std::move(*lifts));  // keeps the parts in order
     }
     return out;
 }

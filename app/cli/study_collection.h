@@ -11,37 +11,37 @@
 
 namespace dihaptic::cli {
 
-/// The study that a command is about, and where its data are.
+/// The study that a command works on, and the location of its data.
 struct StudyData {
-    std::string file;       ///< the study's file
-    std::string rehearsed;  ///< folder of a rehearsal; empty: the study's own participants
+    std::string file;       ///< path of the study file
+    std::string rehearsed;  ///< folder of a rehearsal; empty for the study's own participants
     bool reveal_groups = false;
 };
 
-/// Whether a file is a study.
+/// Whether a file is a study file.
 bool is_study(const std::string& file);
 
-/// The study. If a rehearsal's folder is named, the study's data are read from there. Throws Error
-/// when the study cannot be read or the folder does not exist.
+/// Reads the study. If a rehearsal folder is given, the study's data are taken from there. Throws
+/// Error when the study cannot be read or the folder does not exist.
 study::StudyFile study_of(const StudyData& data);
 
-/// A complete session of a participant.
+/// A participant's complete session.
 struct CompleteSession {
     const study::Member& member;
     std::string folder;
-    std::vector<std::string> parts;  ///< folders of all its recordings, if it was resumed, in order
+    std::vector<std::string> parts;  ///< folders of the session's recordings, several if resumed
 };
 
-/// The complete sessions of a study, in the order of its participants and sessions.
+/// The complete sessions of a study, ordered by participant and session.
 class StudySessions {
   public:
-    /// `study` must outlive it. Throws Error when a recording cannot be read.
+    /// `study` must outlive this object. Throws Error when a recording cannot be read.
     explicit StudySessions(const study::StudyFile& study);
 
     const study::Roster& roster() const { return roster_; }
     const std::vector<CompleteSession>& complete() const { return complete_; }
-    /// Sessions that participants who take part still have to do, and recordings of people who are
-    /// not in the list of participants, in words.
+    /// Describes, in words, the sessions that active participants still have to do, and recordings
+    /// of people who are not in the list of participants.
     const std::vector<std::string>& missing() const { return missing_; }
 
   private:
@@ -50,15 +50,16 @@ class StudySessions {
     std::vector<std::string> missing_;
 };
 
-/// participants.csv, and the tables of all complete sessions, joined. Shows progress. Throws Error
-/// when one cannot be read.
+/// Returns participants.csv and the joined tables of all complete sessions. Shows progress. Throws
+/// Error when a table cannot be read.
 std::vector<TextTable> tables_of(const study::StudyFile& study, const StudySessions& sessions,
                                  const StudyData& data);
 
-/// Notes in the study's log that the groups have been named in `where`, if they are concealed.
+/// If the groups are concealed, notes in the study's log that `where` has revealed them.
 void note_revealed(const study::StudyFile& study, const StudyData& data, const std::string& where);
 
-/// Writes the tables into a folder; empty: tables/ next to the participants' file.
+/// Writes the tables into the folder `out` or, if `out` is empty, into tables/ next to the
+/// participants' file.
 void collect_study(const StudyData& data, const std::string& out);
 
 }  // namespace dihaptic::cli

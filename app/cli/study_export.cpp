@@ -17,8 +17,7 @@ void tell_missing(const StudySessions& sessions) {
     for (const std::string& text : sessions.missing()) fmt::print("{}\n", text);
 }
 
-/// Throws Error when the recording of the motion is missing, as in a rehearsal that keeps only
-/// tables.
+/// Throws Error when the motion recording is missing, as in a rehearsal that keeps only tables.
 void check_recording(const std::string& folder, const StudyData& data) {
     if (is_there(folder + "/raw.log")) return;
     throw Error({folder, 0}, "", "has no recording of the motion: raw.log is missing",
@@ -28,7 +27,8 @@ void check_recording(const std::string& folder, const StudyData& data) {
                       "FOLDER. Or export the tables alone: --psych-ds.");
 }
 
-/// Adds a recording unless the data set has it. Returns the number added.
+/// Adds a recording unless the data set already contains it. Returns the number of recordings
+/// added.
 size_t add(const std::string& folder, const std::string& data_set,
            const std::function<void(double)>& progress) {
     const auto session = recording::SessionFolder::open(folder);
@@ -40,7 +40,7 @@ size_t add(const std::string& folder, const std::string& data_set,
         return 1;
     } catch (const Error&) {
         if (!analysis::is_exported(session, data_set)) throw;
-        return 0;  // another program has just added it
+        return 0;  // another program has just added the recording
     }
 }
 

@@ -7,11 +7,11 @@
 
 namespace dihaptic::cli {
 
-/// Adds the sessions that the BIDS data set lacks. Throws Error at the first that cannot be added;
-/// those before it stay.
+/// Adds to the BIDS data set all sessions that it does not contain yet. Throws Error at the first
+/// session that cannot be added; the sessions added before remain.
 void export_bids(const StudyData& data, const std::string& data_set);
 
-/// Makes a Psych-DS data set of the study's joined tables in a folder that does not exist yet.
+/// Writes the study's joined tables as a Psych-DS data set into `folder`, which must not exist yet.
 void export_psych_ds(const StudyData& data, const std::string& folder);
 
 }  // namespace dihaptic::cli

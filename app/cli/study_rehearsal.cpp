@@ -25,10 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRehearsed = "rehearsed";  // a person's recording in a session's folder
+constexpr const char* kRehearsed = "rehearsed";  // a person's recording within a session's folder
 
-/// Draws facts of a person who may take part: within the bounds of `include`, otherwise as they
-/// occur in a group of students.
+/// Draws facts about a person: within the limits of `include`, if there are any, otherwise as they
+/// are distributed in a group of students.
 class FactDraw {
   public:
     FactDraw(const study::StudyFile& study, uint64_t seed, const std::string& id)
@@ -61,7 +61,7 @@ class FactDraw {
             if (c.fact == fact && !c.is.empty()) values = c.is;
         }
         const auto i = static_cast<size_t>(random_.uniform(0, static_cast<double>(values.size())));
-        return values[std::min(i, values.size() - 1)];  // uniform() may round up to its bound
+        return values[std::min(i, values.size() - 1)];  // uniform() may round up to its upper bound
     }
 
     const study::StudyFile& study_;
@@ -69,10 +69,10 @@ class FactDraw {
 };
 
 /// Adds people until there are as many as requested. If a fact determines the group, people whose
-/// group is full are skipped.
+/// group is already full are skipped.
 void add_people(const study::StudyFile& study, const StudyRehearsal& rehearsal,
                 study::Roster& roster) {
-    constexpr int kMostDraws = 100;  // draws for each person
+    constexpr int kMostDraws = 100;  // largest number of draws for each person
     while (static_cast<int>(roster.participants.size()) < rehearsal.people) {
         const std::string id = session::person_id(static_cast<int>(roster.participants.size()) + 1);
         FactDraw facts(study, rehearsal.seed, id);
@@ -94,8 +94,8 @@ void add_people(const study::StudyFile& study, const StudyRehearsal& rehearsal,
     }
 }
 
-/// Draws the person from the population's group that has the name of the study's group, if there is
-/// one.
+/// Draws the person from the group of the population that has the same name as the study's group,
+/// if there is one.
 person::Traits traits_of(const person::Population& population, uint64_t seed,
                          const study::Member& member) {
     const auto named = std::ranges::find(population.groups, member.group, &person::Group::name);
@@ -104,13 +104,13 @@ person::Traits traits_of(const person::Population& population, uint64_t seed,
                : person::draw_person(population, seed, member.id, member.group);
 }
 
-/// What a participant, and the partner in tasks for two, learned in earlier sessions.
+/// What a participant and, in tasks for two, the partner learned in earlier sessions.
 struct Memories {
     person::Learned person;
     person::Learned partner;
 };
 
-/// A study's people and their work.
+/// Runs the sessions of a study's simulated people.
 class Rehearsing {
   public:
     Rehearsing(const study::StudyFile& study, const StudyRehearsal& rehearsal,
@@ -119,8 +119,8 @@ class Rehearsing {
 
     bool is_done(const std::string& id) const { return all_complete(*roster_.find(id), 0); }
 
-    /// The session that a person may not begin, and why: the previous one does not meet its needs.
-    /// Empty: the person does all sessions.
+    /// Names the session that a person may not begin because the previous session does not meet the
+    /// requirements, with the reason. Empty if the person does all sessions.
     std::string stops(const std::string& id) const {
         const study::Member& member = *roster_.find(id);
         for (size_t i = 1; i < study_.sessions.size(); ++i) {
@@ -141,9 +141,9 @@ class Rehearsing {
         return "";
     }
 
-    /// Runs all incomplete sessions of a person, each with what was learned in earlier ones. For
-    /// this, a complete session before an incomplete one is run again, but this run is not kept.
-    /// Returns the exit status.
+    /// Runs all incomplete sessions of a person, each with what was learned in earlier sessions. To
+    /// obtain this, complete sessions before an incomplete one are run again, without keeping their
+    /// recordings. Returns the exit status.
     int run(const std::string& id) const {
         const study::Member& member = *roster_.find(id);
         Memories learned;
@@ -166,15 +166,15 @@ class Rehearsing {
     bool is_complete(const study::Member& member, size_t session) const {
         return session::has_session(folder(member, session) + "/" + kRehearsed);
     }
-    /// Why a person does not go on from a complete session to this one; empty if this one is done
-    /// or may be done.
+    /// Why a person may not begin this session after completing the previous one; empty if the
+    /// session is complete or may be begun.
     std::vector<std::string> unmet_needs(const study::Member& member, size_t session) const {
         if (session == 0 || is_complete(member, session) || !is_complete(member, session - 1))
             return {};
         return study::unmet_needs(study_.sessions[session],
                                   folder(member, session - 1) + "/" + kRehearsed);
     }
-    /// Whether a person has nothing left to do.
+    /// Whether a person has completed all sessions from `from` on.
     bool all_complete(const study::Member& member, size_t from) const {
         for (size_t i = from; i < study_.sessions.size(); ++i) {
             if (!is_complete(member, i)) return !unmet_needs(member, i).empty();
@@ -200,8 +200,8 @@ class Rehearsing {
         return true;
     }
 
-    /// Returns the folder of the session; empty if it did not end well. `learned`: what was learned
-    /// before the session; afterwards, what is known after it.
+    /// Records a session. Returns its folder; empty if the session did not end well. `learned`:
+    /// what was learned before the session; updated by the session.
     std::string record(const study::Member& member, size_t index, const std::string& out,
                        bool keep_log, Memories& learned) const {
         session::Request request;
@@ -217,7 +217,7 @@ class Rehearsing {
         if (plan.task) {
             const auto traits = [&](const study::Member& of) {
                 person::Traits drawn = traits_of(rehearsal_.population, rehearsal_.seed, of);
-                if (study_.allocation.concealed) drawn.group.clear();  // would reveal the study's
+                if (study_.allocation.concealed) drawn.group.clear();  // would reveal the group
                 return drawn;
             };
             study::Member other = member;
@@ -249,7 +249,7 @@ class Rehearsing {
     const study::Roster& roster_;
 };
 
-/// Throws Error when the folder holds a rehearsal of other files.
+/// Claims the folder for this rehearsal. Throws Error when it holds a rehearsal of other files.
 void claim(const study::StudyFile& study, const StudyRehearsal& rehearsal) {
     session::StudyVersion now = session::present_version(study);
     now.study.set("rehearsed with seed", Node::of(number_text(rehearsal.seed)));

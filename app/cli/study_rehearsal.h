@@ -1,4 +1,4 @@
-// Rehearsing a study: simulated people are allocated to its groups and do all of its sessions.
+// Rehearses a study: simulated people are allocated to its groups and do all of its sessions.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 namespace dihaptic::cli {
 
 struct StudyRehearsal {
-    std::string file;  ///< the study's file
-    std::string out;   ///< folder; empty: rehearsal/ next to the study's file
-    int people = 0;    ///< 0: as many as the study asks for
+    std::string file;  ///< path of the study file
+    std::string out;   ///< output folder; if empty, rehearsal/ next to the study file
+    int people = 0;    ///< number of people; 0 for as many as the study plans
     int jobs = 1;
     uint64_t seed = 1;
     bool keep_recordings = false;

@@ -30,7 +30,7 @@ const study::Member& member_of(const study::StudyFile& study, const study::Roste
     return *member;
 }
 
-/// What comes next, allowed or not.
+/// The participant's next step in the study, whether allowed or not.
 study::Next next_of(const study::StudyFile& study, const study::Member& member, bool simulated) {
     const study::StudyFile where = simulated ? session::rehearsed(study) : study;
     auto visits = session::visits_of(where, member);
@@ -40,7 +40,7 @@ study::Next next_of(const study::StudyFile& study, const study::Member& member, 
     };
     if (session::recover_killed(visits, tell)) visits = session::visits_of(where, member);
     study::Next next = study::next_for(study, visits, study::seconds_of(recording::iso_now()));
-    // simulated sessions follow each other at once
+    // simulated sessions follow one another without a pause
     if (simulated && next.act == study::Act::begin) next.against.clear();
     if (next.act == study::Act::begin && !next.after.empty()) {
         const auto unmet = study::unmet_needs(study.sessions[next.session], next.after);

@@ -17,7 +17,7 @@ std::string number(double value, int decimals) {
     return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
 }
 
-/// Figures of an episode, as text.
+/// Describes the figures of an episode in words.
 std::string describe(const analysis::Episode& e) {
     std::string out;
     const auto add = [&](double value, const std::string& text) {
@@ -74,16 +74,17 @@ void print_movement(const session::MovementReport& report, size_t most_lines) {
 
 namespace {
 
-/// Trials of one kind in a block.
+/// The trials of one kind in one block.
 struct Block {
     std::string key;  // block number and kind of trial
     std::string label;
     std::map<std::string, int> outcomes;
-    double sum = 0;  // sum of the hand's angle or extent
+    double sum = 0;  // sum of the hand's angles or extents
     int measured = 0;
 };
 
-/// `extents`: whether a hand's extent was measured instead of its angle.
+/// Groups the trials by block and kind. `extents`: set to whether the extent of the hand's movement
+/// was measured instead of its angle.
 std::vector<Block> blocks_of(const Table& trials, bool& extents) {
     const auto column = [&](const char* name) {
         const auto found = std::find_if(trials.columns.begin(), trials.columns.end(),
@@ -120,7 +121,8 @@ std::vector<Block> blocks_of(const Table& trials, bool& extents) {
     return blocks;
 }
 
-/// Prints a row for each block and kind of trial: outcomes, and the hand's mean angle or extent.
+/// Prints a row for each block and kind of trial, with the outcomes and the mean angle or extent of
+/// the hand.
 void print_trials(const Table& trials) {
     bool extents = false;
     const std::vector<Block> blocks = blocks_of(trials, extents);
@@ -183,7 +185,7 @@ void print_summary(const session::Recorded& session, const session::Plan& plan) 
         "{:.2f} s in {:.2f} s ({:.{}f} times real time); tick {:.1f} us median, {:.1f} us p99",
         session.simulated, session.elapsed, speed, speed < 10 ? 1 : 0, timing.ticks.quantile(0.5),
         timing.ticks.quantile(0.99));
-    // on the virtual clock no tick is late, however long it takes
+    // on the virtual clock, a tick is never late, however long it takes
     if (timing.lateness.count() > 0)
         fmt::print(", {:.1f} us max; period {:.0f} us\n{}; {}", timing.ticks.quantile(1),
                    plan.settings.tick() * 1e6, describe(timing),

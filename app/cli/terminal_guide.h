@@ -1,4 +1,4 @@
-// Guides a person on the terminal: it prints what to do, and Enter confirms that a step is done.
+// Guides a person on the terminal: prints what to do, and waits for Enter when a step is done.
 #pragma once
 
 #include <string>
@@ -10,21 +10,22 @@ namespace dihaptic::cli {
 
 class TerminalGuide {
   public:
-    /// `label`: label of the progress line.
+    /// `label`: label shown in the progress line.
     explicit TerminalGuide(const std::string& label) : line_(label) {}
 
-    /// The guide throws rig::GivenUp at Ctrl-C and at the end of input.
+    /// Returns a guide, which throws rig::GivenUp at Ctrl-C and at the end of input.
     rig::Guide guide();
 
   private:
     void show(const rig::Guidance& now);
     bool done();
-    /// Reads typed characters, without waiting for the rest of a line. False at the end of input.
+    /// Reads the characters typed so far, without waiting for the end of a line. Returns false at
+    /// the end of input.
     bool read_input();
 
     ProgressLine line_;
     int step_ = 0;
-    std::string typed_;  // input not yet processed
+    std::string typed_;  // input that has not been processed yet
 };
 
 }  // namespace dihaptic::cli

@@ -27,7 +27,7 @@ void run(TuneOptions options) {
     const session::Plan plan = session::make_plan(options.request);
     const measure::TuneSetup setup = measure::tune_setup(plan.rig, scene::finger_names(plan.scene),
                                                          plan.settings, plan.hand.impedance);
-    // reported before a minute of computing, not after it
+    // reported before a minute of computation, not after it
     check_output(options.map, options.request.file, "the file to be tuned");
     const auto result = with_progress("tune", [&](const measure::Progress& progress) {
         return measure::tune(setup, stop_requested, progress);

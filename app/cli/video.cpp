@@ -19,8 +19,8 @@ void make_video(const ViewOptions& options) {
         ProgressLine line("drawing");
         frame::Frame shown;
         while (const frame::Frame* frame = showing.next()) {
-            // the newest frame at each picture's time; where a log has a gap, the picture stands
-            // still
+            // each picture shows the newest frame at its time; in a gap of the log, the picture is
+            // repeated
             while (!shown.bodies.empty() &&
                    seconds(frame->time) > static_cast<double>(pictures) / kRate + 1e-9) {
                 movie.add(drawer.draw(shown));

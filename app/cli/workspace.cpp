@@ -12,7 +12,7 @@ std::string in_mm(const Vec3& v) {
     return fmt::format("[{:.0f}, {:.0f}, {:.0f}]", v.x() * 1e3, v.y() * 1e3, v.z() * 1e3);
 }
 
-/// Prints the proposed origin and wall, in the frame of the rig file.
+/// Prints the proposed origin and wall in the form used in a rig file.
 void print_placement(const rig::Rig& rig, const rig::Workspace& found) {
     const rig::Placement proposed = rig::propose_placement(found);
     fmt::print(
@@ -24,7 +24,7 @@ void print_placement(const rig::Rig& rig, const rig::Workspace& found) {
 }
 
 /// Prints the share of the rig's wall that is out of reach, because devices may have been moved
-/// since it was set.
+/// since the wall was set.
 void check_wall(const rig::Rig& rig, const std::vector<rig::Reach>& reaches) {
     if (!rig.wall) return;
     const double out = rig::out_of_reach(rig.wall->box(), reaches);

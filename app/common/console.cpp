@@ -19,8 +19,8 @@ int exit_code = kOk;
 
 namespace {
 
-/// Writes to standard error. Ignores failure: if the terminal is closed, a session is finished
-/// without progress.
+/// Writes to standard error. Write errors are ignored: if the terminal is closed, the session still
+/// finishes, without showing progress.
 void say(const std::string& text) {
     std::fputs(text.c_str(), stderr);
     std::fflush(stderr);
@@ -71,7 +71,7 @@ CLI::Validator range(Number low, Number high, const char* kind) {
         Number value{};
         const char* const last = text.data() + text.size();
         const auto [end, status] = std::from_chars(text.data(), last, value);
-        // the comparison also refuses NaN
+        // NaN fails these comparisons too
         if (status == std::errc() && end == last && value >= low && value <= high)
             return std::string();
         return fmt::format("must be a {} from {} to {}, is '{}'", kind, low, high, text);
@@ -107,7 +107,8 @@ void add_json(CLI::App& command, bool& json) {
 
 namespace {
 
-/// Throws an Error that names a word that is not a command, because the parser would not name it.
+/// Throws an Error that names the word that is not a command, because the parser's own message
+/// would not name it.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
     if (argc < 2 || argv[1][0] == '-') return;
     std::vector<std::string> commands;
@@ -123,8 +124,8 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
             fmt::format(" See {} --help.", std::filesystem::path(argv[0]).filename().string()));
 }
 
-/// The command line, and the folder in which it is typed, are recorded. Throws Error when they
-/// could not be read back from the record.
+/// Checks the command line and the current folder, because both are recorded. Throws Error when
+/// they could not be read back from the recording.
 void check_typed(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) check_text(argv[i], fmt::format("command line, word {}", i));
     if (argc < 2 || argv[1][0] == '-') return;
@@ -132,7 +133,7 @@ void check_typed(int argc, char** argv) {
     check_text(std::filesystem::current_path(gone).string(), "the current folder");
 }
 
-/// The command with its files, for a message.
+/// The command with its files, as shown in a message.
 std::string what_is_done(int argc, char** argv) {
     std::string out = std::filesystem::path(argv[0]).filename().string();
     for (int i = 1; i < argc; ++i) out += std::string(" ") + argv[i];
@@ -152,7 +153,7 @@ int run_program(CLI::App& app, int argc, char** argv) {
         return code == 0 ? kOk : kBadInput;
     } catch (const Error& e) {
         fmt::print(stderr, "{}\n", e.what());
-        return stop_requested ? kFailed : kBadInput;  // the wait was given up
+        return stop_requested ? kFailed : kBadInput;  // the user gave up waiting
     } catch (const std::filesystem::filesystem_error& e) {
         fmt::print(stderr, "{}: error: {}. Check the file and its permissions.\n",
                    e.path1().string(), e.code().message());

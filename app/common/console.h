@@ -1,4 +1,4 @@
-// Shared by the command-line programs: parsing, progress, and orderly ends.
+// Shared by the command-line programs: parsing, progress, and orderly termination.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,22 +13,22 @@
 
 namespace dihaptic::cli {
 
-/// Set by Ctrl-C, by SIGTERM, and when the terminal is closed: the running command then ends in an
+/// Set by Ctrl-C, by SIGTERM, and when the terminal is closed. The running command then ends in an
 /// orderly way.
 extern std::atomic<bool> stop_requested;
 
-/// Exit codes: success; a result is bad, or the command was interrupted; the input was bad.
+/// Exit codes: success; a bad result or an interrupted command; bad input.
 enum ExitCode { kOk = 0, kFailed = 1, kBadInput = 2 };
 
-/// The exit code; set by the command that ran.
+/// The program's exit code, set by the command that ran.
 extern int exit_code;
 
-/// Parses the command line, which names one of `app`'s commands, and runs that command. Prints any
-/// error that it throws. Returns the program's exit code.
+/// Parses the command line, which names one of `app`'s commands, and runs that command. If the
+/// command throws an error, prints it. Returns the program's exit code.
 int run_program(CLI::App& app, int argc, char** argv);
 
-/// A line of progress on standard error, redrawn in place on a terminal; elsewhere a new line for
-/// each tenth.
+/// A progress line on standard error. On a terminal, the line is redrawn in place; elsewhere, a new
+/// line is printed after each tenth of the work.
 class ProgressLine {
   public:
     explicit ProgressLine(std::string label);
@@ -43,29 +43,29 @@ class ProgressLine {
     size_t width_ = 0;
 };
 
-/// Calls `work` with a function that shows its progress, and returns its result.
+/// Calls `work` with a function that displays the progress, and returns the result of `work`.
 template <class Work>
 auto with_progress(const std::string& label, const Work& work) {
     ProgressLine line(label);
     return work([&](const std::string& what, double share) { line.show(share, what); });
 }
 
-/// Prints problems, both warnings and errors.
+/// Prints problems, i.e. warnings and errors.
 void print(const std::vector<Problem>& problems, std::FILE* to = stderr);
 
-/// Validators of the options --rate, --time and --seed.
+/// Validators for the options --rate, --time and --seed.
 CLI::Validator rate_range();
 CLI::Validator time_range();
 CLI::Validator seed_range();
 
-/// Replaces the name of a missing file by that of a file that comes with the program, or that is in
-/// the user's own folder (base/installed.h).
+/// If a file does not exist, replaces its name with that of a file that comes with the program or
+/// that is in the user's own folder (base/installed.h).
 CLI::Validator given_or_kept();
 
-/// The flag --json.
+/// Adds the flag --json.
 void add_json(CLI::App& command, bool& json);
 
-/// An option whose value is one of an enum's names, which its help lists.
+/// Adds an option whose value is one of the names of an enum; its help text lists them.
 template <NamedEnum E>
 CLI::Option* add_choice(CLI::App& command, const std::string& option, E& value,
                         const std::string& what) {

@@ -17,7 +17,7 @@
 namespace dihaptic::app {
 namespace {
 
-/// A file in memory with this text, to be read from its beginning.
+/// Creates a file in memory that contains this text, positioned at its beginning.
 Descriptor in_memory(const std::string& text) {
     Descriptor file(memfd_create("dihaptic report", MFD_CLOEXEC));
     for (size_t at = 0; file && at < text.size();) {
@@ -29,7 +29,7 @@ Descriptor in_memory(const std::string& text) {
     return file;
 }
 
-/// The end of what was written into the file: the last lines of a Python error name its reason.
+/// The last lines of the file, which name the reason of a Python error.
 std::string last_words_in(const Descriptor& file) {
     std::array<char, 2000> text{};
     const off_t end = lseek(file.get(), 0, SEEK_END);
@@ -60,7 +60,7 @@ void draw_page(const analysis::ReportResult& result, const std::string& command,
     launch.arguments.insert(launch.arguments.end(), result.paths.begin(), result.paths.end());
     if (says == PythonSays::in_error)
         launch.files = {description.get(), Launch::kNothing, said.get()};
-    std::fflush(stdout);  // so that this comes before the child's own lines
+    std::fflush(stdout);  // the program's own output must come before the child's
     Child python;
     const int failed = description && said ? python.start(launch) : errno;
     if (failed != 0)

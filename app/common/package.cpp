@@ -13,8 +13,8 @@ std::string python_folder() {
 }
 
 Launch python_launch(const std::string& folder, const std::string& module) {
-    // another Python, such as Anaconda's, does not have the package; -I ignores the current folder,
-    // the environment and the user's own packages
+    // other Pythons, such as Anaconda's, lack the package; -I ignores the current folder, the
+    // environment variables and the user's own packages
     const std::string code_of = "import sys; sys.path.insert(0, sys.argv.pop(1)); from " + module +
                                 " import main; sys.exit(main(sys.argv[1:]))";
     return {"/usr/bin/env",

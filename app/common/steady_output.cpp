@@ -21,7 +21,7 @@ ssize_t write_to(void* stream, const char* data, size_t size) {
         } else if (errno != EINTR) {
             const bool gone = errno == EPIPE || errno == EIO;
             if (gone) stop_requested.store(true);
-            if (!gone) exit_code = kFailed;  // the disk may be full: part of the output is lost
+            if (!gone) exit_code = kFailed;  // the disk may be full, so part of the output is lost
             break;
         }
     }

@@ -17,7 +17,7 @@ void on_signal(int signal) {
     const int before = errno;
     if (std::atomic<bool>* const stop = flag.load(); stop != nullptr) stop->store(true);
     const auto number = static_cast<char>(signal);
-    // if the pipe is full, its reader has already been woken
+    // if the pipe is full, its reader has already been woken up
     [[maybe_unused]] const ssize_t written = write(wake_file.load(), &number, 1);
     errno = before;
 }
@@ -51,9 +51,9 @@ void stop_on_signals(std::atomic<bool>& stop, int wake) {
         const bool nohup = signal == SIGHUP && before.sa_handler == SIG_IGN;
         const bool anothers = (before.sa_flags & SA_SIGINFO) != 0 ||
                               (before.sa_handler != SIG_IGN && before.sa_handler != SIG_DFL);
-        if (!nohup && !anothers) handle(signal, on_signal);  // e.g. a profiler's handler stays
+        if (!nohup && !anothers) handle(signal, on_signal);  // keeps e.g. a profiler's handler
     }
-    // writing to a pipe without a reader, or beyond a quota, then fails with an error instead
+    // writing to a pipe without a reader, or beyond a size limit, then returns an error instead
     handle(SIGPIPE, SIG_IGN);
     handle(SIGXFSZ, SIG_IGN);
 }

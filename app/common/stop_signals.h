@@ -1,8 +1,8 @@
-// Makes signals that ask the program to end or to wait end a session properly instead: a killed or
-// suspended program leaves its devices with their last force.
+// Makes signals that would kill or suspend the program end a session properly instead: a killed or
+// suspended program would leave its devices with the last commanded force.
 //
-// Signals of an error in the program itself, such as SIGSEGV, are not handled, because no orderly
-// end is possible after one.
+// Signals that report an error in the program itself, such as SIGSEGV, are not handled, because an
+// orderly end is not possible after such an error.
 #pragma once
 
 #include <csignal>
@@ -12,15 +12,15 @@
 
 namespace dihaptic::app {
 
-/// From now on a signal that would end the program from outside (Ctrl-C, Ctrl-\, a closed terminal,
-/// a log-out, a timer, a limit of the system) only sets `stop`, and writes its number as a byte to
-/// the file `wake`, if there is one. A hangup that is already ignored stays ignored, as required by
-/// nohup, and a signal that already has a handler keeps it. `stop` and `wake` must live as long as
-/// the program.
+/// From this call on, a signal that would end the program from outside (Ctrl-C, Ctrl-\, a closed
+/// terminal, a logout, a timer, a system limit) only sets `stop`, and writes its number as a byte
+/// to the file `wake`, if one is given. A hangup signal that is already ignored stays ignored, as
+/// required by nohup, and a signal that already has a handler keeps it. `stop` and `wake` must live
+/// as long as the program.
 void stop_on_signals(std::atomic<bool>& stop, int wake = -1);
 
-/// While this exists, signals that would suspend the program, above all Ctrl-Z, end it properly
-/// too.
+/// While an object of this class exists, signals that would suspend the program, above all Ctrl-Z,
+/// end it properly too.
 class NoSuspension {
   public:
     NoSuspension();
@@ -29,7 +29,7 @@ class NoSuspension {
     NoSuspension& operator=(const NoSuspension&) = delete;
 
   private:
-    std::array<struct sigaction, 3> before_;  // previous action of each
+    std::array<struct sigaction, 3> before_;  // previous action of each signal
 };
 
 }  // namespace dihaptic::app

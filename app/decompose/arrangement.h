@@ -1,12 +1,12 @@
-// The solid that a closed surface encloses, even if its triangles cross each other, lie on one
-// another, or meet without shared corners. Their union cuts space into cells, and a cell is solid
-// if the surface winds around it at least once. The winding number of the outer cell is 0, and
-// crossing a facet changes it by the number of triangles there that face one way minus the number
-// that face the other way.
+// Computes the solid enclosed by a closed surface, even if its triangles cross each other, lie on
+// one another, or meet without shared corners. The union of the triangles cuts space into cells,
+// and a cell is solid if the surface winds around it at least once. The winding number of the outer
+// cell is 0. Crossing a facet changes the winding number by the number of triangles at the facet
+// that face one way minus the number that face the other way.
 #pragma once
 
 #include "solids.h"
-// after Nef polyhedra, before which these do not compile
+// after the Nef polyhedra (solids.h), without which these headers do not compile
 #include <CGAL/Nef_3/Mark_bounded_volumes.h>
 #include <CGAL/Nef_nary_union_3.h>
 
@@ -33,8 +33,8 @@ struct Flat {
     }
 };
 
-/// Whether a triangle contains the point that lies an infinitesimal step from p along the direction
-/// d, in the triangle's plane.
+/// Whether a triangle contains the point at an infinitesimal distance from p in the direction d,
+/// which lies in the triangle's plane.
 inline bool contains(const Triangle& t, const Point& p, const Vector& d) {
     const Flat flat(normal_of(t));
     std::array<CGAL::Sign, 3> side{};
@@ -80,14 +80,14 @@ class MarkWound : public CGAL::Modifier_base<Nef::SNC_structure> {
     using Snc = Nef::SNC_structure;
     using Volume = Snc::Volume_handle;
 
-    /// The rise of the winding number from behind a halffacet into its volume, to which its normal
-    /// points.
+    /// The difference between the winding number of the halffacet's volume, to which its normal
+    /// points, and that of the volume behind it.
     int jump(Snc::Halffacet_handle f) const {
         const Snc::SHalfedge_handle edge(f->facet_cycles_begin());
         const std::vector<Point> cycle = corners(Snc::SHalfedge_around_facet_circulator(edge));
         const Vector normal = f->plane().orthogonal_vector();
         const Vector along = cycle[1] - cycle[0];
-        // oblique, so that it meets no triangle's edge
+        // oblique, so that it does not meet the edge of any triangle
         const Vector inward = CGAL::cross_product(normal, along) /
                                   std::sqrt(CGAL::to_double(normal.squared_length())) +
                               Number(0.3719) * along;

@@ -1,19 +1,21 @@
 // dihaptic-decompose shells|winding < SHELLS > PIECES: cuts a solid into convex pieces, exactly
-// (CGAL's Nef polyhedra; Chazelle 1984). It reads shells, each a line "solid" or "cavity" with its
-// numbers of vertices and of triangles, then these, one per line. Shells are closed and face
-// outward, cavities too; a cavity is cut out of the solid before it. The program dihaptic calls it,
-// under limits, and keeps the result; there is no need to call it by hand.
+// (with CGAL's Nef polyhedra; Chazelle 1984). It reads shells: for each, a line with "solid" or
+// "cavity" and the numbers of vertices and triangles, followed by the vertices and the triangles,
+// one per line. All shells, including cavities, must be closed and face outward; a cavity is cut
+// out of the solid that precedes it. The program dihaptic calls this program, with resource limits,
+// and stores the result; there is no need to call it by hand.
 //
-// "shells" makes a solid from each shell and unites them. "winding" takes longer, and assumes only
-// that all shells together are closed (arrangement.h).
+// "shells" makes a solid from each shell and unites the solids. "winding" takes longer, and only
+// assumes that all shells together form a closed surface (arrangement.h).
 //
-// It writes "crossing X Y Z", a point where a shell crosses or touches itself, if any; "inverted
-// VOLUME", the volume that a shell encloses with the wrong orientation; "volume SOLID SHELLS", the
-// volume of the solid, in which overlapping shells count once, and the sum of the shells' volumes;
-// and for each piece a line "piece COUNT" and then COUNT vertices, one per line.
+// The output consists of "crossing X Y Z", a point where a shell crosses or touches itself, if
+// there is one; "inverted VOLUME", the volume that a shell encloses with the wrong orientation;
+// "volume SOLID SHELLS", the volume of the solid, in which overlapping shells count once, and the
+// sum of the volumes of the shells; and, for each piece, a line "piece COUNT" followed by COUNT
+// vertices, one per line.
 #include "arrangement.h"
 #include "solids.h"
-// after Nef polyhedra, before which these do not compile
+// after the Nef polyhedra (solids.h), without which these headers do not compile
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polyhedron_incremental_builder_3.h>
 #include <CGAL/convex_decomposition_3.h>
@@ -29,7 +31,7 @@ namespace {
 
 using namespace dihaptic::decompose;
 
-/// Relative difference up to which volumes are taken as equal.
+/// Relative difference up to which two volumes are considered equal.
 constexpr double kSame = 1e-9;
 
 struct Shell {
@@ -75,7 +77,7 @@ double enclosed(const Shell& shell) {
     return CGAL::to_double(sum) / 6;
 }
 
-/// Makes a polyhedron of a shell.
+/// Builds a polyhedron from a shell.
 class Build : public CGAL::Modifier_base<Polyhedron::HalfedgeDS> {
   public:
     explicit Build(const Shell& shell) : shell_(shell) {}
@@ -94,7 +96,8 @@ class Build : public CGAL::Modifier_base<Polyhedron::HalfedgeDS> {
     const Shell& shell_;
 };
 
-/// The solid within a shell. Throws, with a point, when the shell crosses or touches itself.
+/// The solid enclosed by a shell. Throws an error that gives a point where the shell crosses or
+/// touches itself.
 Nef inside(const Shell& shell) {
     Polyhedron surface;
     Build build(shell);
@@ -145,7 +148,7 @@ Nef by_winding(const std::vector<Shell>& shells) {
     return all.solid;
 }
 
-/// Writes the convex pieces of a solid. Throws when they do not fill it.
+/// Writes the convex pieces of a solid. Throws when the pieces do not fill the solid.
 void cut(Nef solid, std::ostream& out) {
     const double whole = volume_of(solid);
     CGAL::convex_decomposition_3(solid);
@@ -180,13 +183,13 @@ void decompose(const std::string& way, const std::vector<Shell>& shells) {
 
 int main(int count, char** arguments) {
     try {
-        // CGAL prints nothing: the calling program reports the failure
+        // CGAL must print nothing, because the calling program reports the failure
         CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
         decompose(count > 1 ? arguments[1] : "shells", read(std::cin));
     } catch (const std::bad_alloc&) {
         return 3;
     } catch (const std::exception&) {
-        // the output gives the point, and no pieces
+        // the output contains the point but no pieces
     }
     std::cout.flush();
     return std::cout ? 0 : 1;

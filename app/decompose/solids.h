@@ -1,4 +1,4 @@
-// Solids between the triangles of a mesh, as exact Nef polyhedra of CGAL.
+// Solids enclosed by the triangles of a mesh, as exact Nef polyhedra of CGAL.
 #pragma once
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -24,7 +24,7 @@ inline Vector normal_of(const Triangle& t) {
     return CGAL::cross_product(t[1] - t[0], t[2] - t[0]);
 }
 
-/// The corners of one cycle of edges of a halffacet.
+/// The corners along one edge cycle of a halffacet.
 template <class Circulator>
 std::vector<Point> corners(Circulator edge) {
     std::vector<Point> out;
@@ -34,8 +34,8 @@ std::vector<Point> corners(Circulator edge) {
     return out;
 }
 
-/// Six times the volume between a cycle of a planar facet and the origin. The cycles of a facet
-/// with holes add up.
+/// Six times the volume between the origin and a cycle of a planar facet. The values for the cycles
+/// of a facet with holes add up.
 inline Number six_volumes(const std::vector<Point>& cycle) {
     Vector area = CGAL::NULL_VECTOR;  // twice
     const Vector start = cycle[0] - CGAL::ORIGIN;
@@ -44,7 +44,7 @@ inline Number six_volumes(const std::vector<Point>& cycle) {
     return start * area;
 }
 
-/// The volume of selected cells, e.g. of all marked ones.
+/// The volume of the selected cells, e.g. of all marked cells.
 template <class Circulator, class Structure, class Counts>
 double volume_of(Structure& cells, const Counts& counts) {
     Number sum = 0;

@@ -12,8 +12,8 @@ Application::Application(int& argc, char** argv) : QApplication(argc, argv) {
 }
 
 bool Application::notify(QObject* receiver, QEvent* event) {
-    // ShortcutOverride comes first: it asks the widget with the keyboard focus whether to keep a
-    // shortcut's key for itself
+    // Qt sends ShortcutOverride before the key press, to ask the widget with the keyboard focus
+    // whether to keep a shortcut key for itself
     const bool press =
         event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress;
     if (press && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) Q_EMIT escape_pressed();

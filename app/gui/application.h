@@ -1,6 +1,6 @@
-// The Qt application object. It sees Escape before any widget does, because a dialog, a menu or a
-// field with the keyboard focus would consume the key. It also loads the translation for the
-// system's language, if there is one.
+// The Qt application object. It sees the Escape key before any widget does, because a dialog, a
+// menu or a field with the keyboard focus would consume the key. It also loads the translation for
+// the system's language, if there is one.
 #pragma once
 
 #include <QApplication>
@@ -12,16 +12,16 @@ class Application : public QApplication {
     Q_OBJECT
 
   public:
-    /// Qt activates the system's language; for numbers this is reversed, because libraries would
-    /// otherwise read 0.5 as 0.
+    /// Keeps numbers in the C locale, although Qt activates the system's: otherwise libraries would
+    /// read 0.5 as 0.
     Application(int& argc, char** argv);
     bool notify(QObject* receiver, QEvent* event) override;
-    /// From now on, the window's texts and Qt's own are in the system's language, if the folder
-    /// contains dihaptic_LANGUAGE.qm.
+    /// If the folder contains dihaptic_LANGUAGE.qm for the system's language, switches the window's
+    /// texts and Qt's own texts to this language.
     void translate(const QString& folder);
 
   Q_SIGNALS:
-    /// Sent before the key has any other effect; may be sent more than once for a press.
+    /// Emitted before the key press has any other effect, possibly more than once per press.
     void escape_pressed();
 
   private:

@@ -24,7 +24,7 @@ void BodyDrag::follow(const view::Ray& ray, const QPointF& pixels, Qt::KeyboardM
     }
     const auto step =
         view::dragged(held_W_ + way_.way, ray_, ray, keys.testFlag(Qt::ShiftModifier));
-    if (!step) return;  // the body waits until the pointer returns
+    if (!step) return;  // the body stays in place until the pointer returns
     way_.way += *step;
     ray_ = ray;
 }
@@ -56,7 +56,7 @@ std::optional<Vec3> step_of(const QKeyEvent& event, const view::Camera& camera) 
     constexpr double kQuarter = M_PI / 2;
     const double turn = kQuarter * std::round(view::azimuth(camera) / kQuarter);
     const double length = event.modifiers().testFlag(Qt::ShiftModifier) ? 0.010 : 0.001;
-    // exactly along an axis, so that the other numbers in the file stay unchanged
+    // exactly along an axis, so that the other coordinates in the file stay unchanged
     return length * (about_z(turn) * step).array().round().matrix();
 }
 

@@ -1,9 +1,9 @@
-// Moves the picked body of a scene in the picture, by mouse or a step at a time.
+// Moves the picked body of a scene, by dragging it in the picture or step by step with keys.
 //
-//     drag                in the plane of the table
-//     drag with Shift     up and down
-//     drag with Ctrl      turns it about the vertical
-//     arrows, Page Up and Down     1 mm to each side, up and down; with Shift 10 mm
+//     drag                         moves it in the plane of the table
+//     drag with Shift              moves it up and down
+//     drag with Ctrl               turns it about the vertical
+//     arrows, Page Up and Down     move it 1 mm to each side, up and down; 10 mm with Shift
 #pragma once
 
 #include <QKeyEvent>
@@ -25,22 +25,22 @@ struct BodyWay {
 
 class BodyDrag {
   public:
-    /// Starts a drag: the body is held at the point where the ray to the pointer meets it.
+    /// Starts a drag. The body is held at the point where the ray through the pointer meets it.
     BodyDrag(const view::Seen& held, const view::Ray& ray) : held_W_(held.p_W), ray_(ray) {}
 
-    /// The pointer moved by this many pixels; `ray` is now the ray to it.
+    /// Follows a pointer movement by `pixels`; `ray` is the new ray through the pointer.
     void follow(const view::Ray& ray, const QPointF& pixels, Qt::KeyboardModifiers keys);
     const BodyWay& way() const { return way_; }
 
   private:
     static constexpr double kTurn = 0.008;  // [rad/pixel]
     Vec3 held_W_;
-    view::Ray ray_;  // ray to the pointer when the body last followed it
+    view::Ray ray_;  // ray through the pointer when the body last followed it
     BodyWay way_;
 };
 
-/// The step for a key, along the axes of W that are closest to right and away in the camera's
-/// picture [m]; nullopt for any other key.
+/// The step that a key stands for, along the axes of W that are closest to the rightward and the
+/// far direction in the camera's picture [m]; nullopt for any other key.
 std::optional<Vec3> step_of(const QKeyEvent& event, const view::Camera& camera);
 
 }  // namespace dihaptic::gui

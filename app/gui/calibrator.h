@@ -1,5 +1,5 @@
-// Calibrates a rig and registers its displays from the window, and checks before a session that the
-// calibration is still valid.
+// Calibrates a rig and registers its displays from the operator's window, and checks before a
+// session that the calibration is still valid.
 #pragma once
 
 #include <QPointer>
@@ -16,21 +16,22 @@ class Calibrator : public QObject {
     Q_OBJECT
 
   public:
-    /// `window`: parent of its dialogs.
+    /// `window`: parent of the dialogs.
     explicit Calibrator(QWidget* window) : QObject(window), window_(window) {}
 
-    /// At the end asks whether to store the result. `named_by`: who named the rig file.
+    /// Calibrates a rig, then asks whether to store the result. `named_by`: the source of the rig
+    /// file's name.
     void calibrate(const QString& rig_file, rig::NamedBy named_by);
-    /// Shows crosses on the rig's first display, and at the end asks whether to store their touched
-    /// positions.
+    /// Shows crosses on the rig's first display to be touched, then asks whether to store their
+    /// measured positions.
     void register_display(const QString& rig_file, rig::NamedBy named_by);
-    /// Makes a check for the start of a session, to be called in the session's thread: the person
-    /// holds endpoints together, or skips this, and the check returns warnings if the calibration
-    /// is no longer valid. `ends`: whether the session should end.
+    /// Returns a check for the start of a session, to be called in the session's thread. In the
+    /// check, the person holds the endpoints together or skips the step; if the calibration is no
+    /// longer valid, the check returns warnings. `ends`: tells whether the session should end.
     std::function<std::vector<Problem>(devices::DeviceGroup&)> together_check(
         const rig::Rig& rig, const std::vector<std::string>& fingers,
         const std::function<bool()>& ends);
-    /// Call when the session has ended: ends its check, whatever its state.
+    /// To be called when the session has ended: ends the check of that session, whatever its state.
     void end_check();
 
   Q_SIGNALS:
@@ -44,7 +45,7 @@ class Calibrator : public QObject {
                const display::RegistrationResult& result, const std::string& rig_file);
 
     QWidget* window_;
-    QPointer<GuideDialog> check_;  // dialog of the starting session's check
+    QPointer<GuideDialog> check_;  // dialog of the check before the session that is starting
 };
 
 }  // namespace dihaptic::gui

@@ -7,11 +7,11 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr int kFaint = 40;  // alpha of lines behind the curves
+constexpr int kFaint = 40;  // alpha of the lines behind the curves
 // dimensions of a legend [pixels]
 constexpr double kLine = 11;    // length of a line
-constexpr double kToName = 4;   // from a mark to its name
-constexpr double kToNext = 11;  // from a name to the next mark
+constexpr double kToName = 4;   // distance from a mark to its name
+constexpr double kToNext = 11;  // distance from a name to the next mark
 
 }  // namespace
 
@@ -25,7 +25,7 @@ double round_step(double least) {
 
 Scale scale_of(double low, double high, double lines) {
     const double step = round_step((high - low) / std::max(1.0, lines));
-    // a value that is practically on a line does not add another step
+    // a value that is practically on a line does not extend the scale by another step
     return {std::floor(low / step + 0.05) * step, std::ceil(high / step - 0.05) * step, step};
 }
 

@@ -1,4 +1,4 @@
-// What all charts have in common: readable scales, axes with their ticks, curves and legends.
+// Shared by all charts: readable scales, axes with ticks, curves and legends.
 #pragma once
 
 #include <QPainter>
@@ -7,18 +7,18 @@
 
 namespace dihaptic::gui {
 
-/// The smallest number among ..., 1, 2, 5, 10, ... that is not below `least`.
+/// The smallest of the numbers ..., 1, 2, 5, 10, 20, 50, ... that is not below `least`.
 double round_step(double least);
 
-/// The lowest and the highest line of a scale, and the step between lines.
+/// The lowest and the highest line of a scale, and the distance between lines.
 struct Scale {
     double low, high, step;
 };
 
-/// The scale for values from low to high, with about this many steps.
+/// The scale for values from `low` to `high`, with approximately `lines` steps.
 Scale scale_of(double low, double high, double lines);
 
-/// Paints a chart in an area of a widget, across which x goes from `begin` to `end`.
+/// Paints a chart into a rectangle of a widget. Across the rectangle, x goes from `begin` to `end`.
 class ChartPainter {
   public:
     struct Entry {
@@ -44,19 +44,21 @@ class ChartPainter {
         return area_.bottom() - (value - scale_.low) / (scale_.high - scale_.low) * area_.height();
     }
     QPointF at(const QPointF& point) const { return {x(point.x()), y(point.y())}; }
-    /// The colour of texts.
+    /// The text colour.
     QColor ink(int alpha = 255) const;
-    /// Draws the lines of the scale, with their numbers; `decimals` -1: as many as they need.
+    /// Draws the lines of the scale and their numbers. `decimals`: number of decimals; -1 for as
+    /// many as necessary.
     void draw_values(int decimals = -1) const;
-    /// Writes a text below the area; `lined`: with a faint line up through the area.
+    /// Writes a text below the chart. `lined`: whether to draw a faint vertical line up through the
+    /// chart.
     void draw_tick(double where, const QString& text, bool lined = false) const;
     void draw_upright(double where, const QPen& pen) const;
-    /// Joins points in the chart's units; NaN leaves a gap.
+    /// Joins points given in the chart's units; a NaN leaves a gap.
     void draw_curve(const std::vector<QPointF>& points, const QPen& pen) const;
-    /// Draws a dot; `centre` is in the widget's units.
+    /// Draws a dot. `centre` is given in the widget's units.
     void draw_dot(const QPointF& centre, const QColor& colour) const;
     void draw_legend(double left, double top, const std::vector<Entry>& entries, Mark mark) const;
-    /// Width of a legend of lines [pixels].
+    /// Width of a legend that names lines [pixels].
     static double legend_width(const QFontMetrics& metrics, const std::vector<Entry>& entries);
 
   private:

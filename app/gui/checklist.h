@@ -1,5 +1,5 @@
-// The checklist before a session: the state of devices, calibration, displays, rights and disk,
-// with a button for each remedy.
+// The checklist shown before a session: the state of devices, calibration, displays, rights and
+// disk, with a button for each remedy.
 #pragma once
 
 #include <QDialog>
@@ -13,11 +13,12 @@ class Checklist : public QDialog {
     Q_OBJECT
 
   public:
-    /// `before_start`: accepting it starts the session; otherwise it is only shown.
+    /// `before_start`: whether accepting the dialog starts the session; otherwise the checklist is
+    /// for information only.
     Checklist(const std::vector<session::Finding>& findings, bool before_start, QWidget* parent);
 
   Q_SIGNALS:
-    /// A remedy's button was pressed; the dialog is closed.
+    /// The button of a remedy was pressed, and the dialog is closed.
     void chosen(dihaptic::session::Remedy remedy);
 
   private:

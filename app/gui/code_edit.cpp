@@ -17,7 +17,7 @@ namespace {
 constexpr int kMarginSpace = 12;  // [px]
 const QColor kProblem("#d55e00");
 
-/// Colours comments, keys, and texts in quotes.
+/// Colours comments, keys, and quoted text.
 class Colours final : public QSyntaxHighlighter {
   public:
     using QSyntaxHighlighter::QSyntaxHighlighter;
@@ -49,7 +49,7 @@ class Colours final : public QSyntaxHighlighter {
 
 }  // namespace
 
-/// The line numbers.
+/// The margin that shows the line numbers.
 class CodeEdit::Margin final : public QWidget {
   public:
     explicit Margin(CodeEdit& edit) : QWidget(&edit), edit_(edit) {}
@@ -70,7 +70,7 @@ CodeEdit::CodeEdit(QWidget* parent)
     new Colours(document());
     words_->setWidget(this);
     words_->setModel(new QStandardItemModel(words_));
-    words_->setCompletionRole(Qt::UserRole);  // inserts only the word
+    words_->setCompletionRole(Qt::UserRole);  // inserts only the word itself
     words_->setMaxVisibleItems(12);
     words_->popup()->setFont(font);
     connect(words_, qOverload<const QModelIndex&>(&QCompleter::activated), this,
@@ -98,7 +98,7 @@ void CodeEdit::lay_out() {
 }
 
 void CodeEdit::resizeEvent(QResizeEvent* event) {
-    // problems shown below the text take space from it, but the current line stays visible
+    // problems shown below the text make the field smaller, but the current line stays visible
     const bool seen = QRect(QPoint(), event->oldSize()).contains(cursorRect().center());
     PlainText::resizeEvent(event);
     lay_out();
@@ -141,7 +141,7 @@ void CodeEdit::show_marks() {
 }
 
 QString CodeEdit::text() const {
-    // toPlainText() would turn no-break spaces into ordinary ones
+    // toPlainText() would turn no-break spaces into ordinary spaces
     QString out = document()->toRawText();
     return out.replace(QChar::ParagraphSeparator, '\n').replace(QChar::LineSeparator, '\n');
 }
@@ -151,7 +151,7 @@ void CodeEdit::change(const std::vector<TextChange>& changes) {
     const auto sign = [&](size_t byte) {
         return static_cast<int>(QString::fromUtf8(bytes.left(static_cast<int>(byte))).size());
     };
-    QTextCursor cursor = textCursor();  // undoing returns to this position
+    QTextCursor cursor = textCursor();  // undoing moves the cursor back to this position
     cursor.beginEditBlock();
     for (auto change = changes.rbegin(); change != changes.rend(); ++change) {
         cursor.setPosition(sign(change->at));
@@ -178,7 +178,7 @@ bool CodeEdit::viewportEvent(QEvent* event) {
     return PlainText::viewportEvent(event);
 }
 
-/// `anyhow`: even if no word has been started.
+/// `anyhow`: whether to ask even if no word has been started.
 void CodeEdit::ask_for_words(bool anyhow) {
     if (isReadOnly()) return;
     const WordPlace place = word_place(text(), textCursor().position());
@@ -188,7 +188,7 @@ void CodeEdit::ask_for_words(bool anyhow) {
 
 void CodeEdit::offer(const WordPlace& place, const std::vector<Choice>& words) {
     const WordPlace now = word_place(text(), textCursor().position());
-    if (now.asking != place.asking || !hasFocus()) return;  // the cursor has moved
+    if (now.asking != place.asking || !hasFocus()) return;  // the cursor has moved in the meantime
     auto& model = static_cast<QStandardItemModel&>(*words_->model());
     model.clear();
     size_t longest = 0;
@@ -229,12 +229,13 @@ void CodeEdit::take_word(const QModelIndex& word) {
     setTextCursor(cursor);
 }
 
-/// YAML does not allow tabs, and a new line usually continues at the indentation of the last one.
+/// Tab inserts spaces, because YAML does not allow tabs, and a new line usually keeps the
+/// indentation of the previous line.
 void CodeEdit::keyPressEvent(QKeyEvent* event) {
     const bool choosing = words_->popup()->isVisible();
     if (choosing && QList<int>{Qt::Key_Return, Qt::Key_Enter, Qt::Key_Tab, Qt::Key_Escape}.contains(
                         event->key()))
-        return event->ignore();  // the list handles the key
+        return event->ignore();  // the word list handles this key
     if (event->key() == Qt::Key_Space && event->modifiers().testFlag(Qt::ControlModifier))
         return ask_for_words(true);
     if (event->modifiers().testFlag(Qt::AltModifier)) Q_EMIT step_wanted(*event);

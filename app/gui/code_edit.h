@@ -1,4 +1,4 @@
-// A field for the text of a scene or an experiment: line numbers, colours, marks at lines with
+// A text field for a scene or an experiment, with line numbers, colours, marks at lines with
 // problems, and a list of the words that may be typed.
 #pragma once
 
@@ -17,22 +17,22 @@ class CodeEdit : public PlainText {
   public:
     explicit CodeEdit(QWidget* parent = nullptr);
 
-    /// Marks lines, counted from 1, each with its problem; all other marks are removed.
+    /// Marks the given lines, counted from 1, each with its problem, and removes all other marks.
     void mark(const std::map<int, QString>& problems);
-    /// Puts the cursor into a line, counted from 1, and shows it.
+    /// Moves the cursor to the given line, counted from 1, and scrolls it into view.
     void go_to(int line);
-    /// The present text, with a line feed after each line but the last.
+    /// The current text, with a line feed after every line except the last.
     QString text() const;
-    /// Replaces parts of text(), given by positions in its UTF-8 bytes, as one step of undo. The
-    /// cursor keeps its position.
+    /// Replaces parts of text(), given as positions in its UTF-8 encoding, in a single undo step.
+    /// The cursor keeps its position.
     void change(const std::vector<TextChange>& changes);
-    /// Offers words for this position, if the cursor is still at it and any words fit.
+    /// Shows a list of words for this position, if the cursor is still there and any words fit.
     void offer(const WordPlace& place, const std::vector<Choice>& words);
 
   Q_SIGNALS:
-    /// The user requested the words that are possible at the cursor, or started typing one.
+    /// The user requested the words that are possible at the cursor, or started to type a word.
     void words_wanted(const dihaptic::gui::WordPlace& place);
-    /// A key was pressed, with Alt, that may move a body.
+    /// A key that may move a body was pressed together with Alt.
     void step_wanted(const QKeyEvent& event);
 
   protected:
@@ -51,7 +51,7 @@ class CodeEdit : public PlainText {
     void take_word(const QModelIndex& word);
 
     QCompleter* words_;
-    WordPlace offered_;  // position for which words are shown
+    WordPlace offered_;  // position for which the word list is shown
     Margin* margin_;
     std::map<int, QString> problems_;
 };

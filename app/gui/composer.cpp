@@ -16,7 +16,7 @@ constexpr int kPause = 400;  // [ms]
 constexpr int kLook = 100;   // [ms]
 constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
 
-/// Whether an editor can show a file's bytes, and write them back unchanged.
+/// Whether an editor can show the bytes of a file as text and write them back unchanged.
 bool is_text(const QByteArray& content) {
     QByteArray text = content;
     if (text.startsWith(kByteOrderMark)) text.remove(0, 3);
@@ -24,7 +24,7 @@ bool is_text(const QByteArray& content) {
     return !find_fault(text.toStdString());
 }
 
-/// The line of a text, counted from 1, that contains a byte.
+/// The line of a text, counted from 1, that contains the byte at position `at`.
 int line_of(const QByteArray& text, size_t at) {
     return 1 + static_cast<int>(text.left(static_cast<qsizetype>(at)).count('\n'));
 }
@@ -149,7 +149,7 @@ void Composer::offer(const Draft::Left& left) {
     auto* go_on = offer_->addButton(tr("&Continue with it"), QMessageBox::AcceptRole);
     auto* discard = offer_->addButton(tr("&Discard it"), QMessageBox::DestructiveRole);
     offer_->setDefaultButton(go_on);
-    offer_->setEscapeButton(go_on);  // continuing loses nothing
+    offer_->setEscapeButton(go_on);  // continuing with the text loses nothing
     connect(offer_, &QDialog::finished, this, [this, discard, text = left.text] {
         const bool discarded = offer_->clickedButton() == discard;
         offer_ = nullptr;
@@ -159,7 +159,7 @@ void Composer::offer(const Draft::Left& left) {
     offer_->open();
 }
 
-/// Takes the text as an undoable step, before which the state is the file's content.
+/// Replaces the text in an undoable step; undoing it restores the file's contents.
 void Composer::take(const QString& text) {
     edit_->setReadOnly(false);
     QTextCursor cursor(edit_->document());
@@ -176,7 +176,7 @@ void Composer::check() {
 
 void Composer::keep_draft() {
     if (!draft_ || offer_ || !changed()) return;
-    // the window that held the draft may have closed, and its text has not been offered yet
+    // the window that held the draft may have closed, so its text must be offered first
     if (!has_draft_) begin_draft();
     if (!has_draft_ || offer_) return;
     try {
@@ -192,7 +192,7 @@ void Composer::drop_draft() {
 
 void Composer::end_draft() {
     drop_draft();
-    delete offer_;  // the offered draft stays
+    delete offer_;  // the draft that was offered is kept
     draft_.reset();
     has_draft_ = false;
 }
@@ -226,7 +226,7 @@ std::string Composer::body() const {
 }
 
 bool Composer::move(const std::string& body, const BodyWay& way) {
-    if (edit_->isReadOnly()) return false;  // a note about this is always shown
+    if (edit_->isReadOnly()) return false;  // a note that says so is always shown
     if (body.empty()) {
         state_->setText(tr("The cursor is not in the lines of a body: nothing moves."));
         return false;

@@ -56,7 +56,7 @@ void CurveReader::run(const Wanted& wanted, const std::stop_token& stop) {
             tell(share);
         }
     } catch (const Error&) {
-        // the session was opened, so its log existed: the part that was read is shown
+        // the log existed when the session was opened, so the part read so far is shown
     }
     if (!stop.stop_requested()) tell(1);
 }

@@ -1,4 +1,5 @@
-// Reads curves of a recorded session, in a separate thread: a session may have millions of ticks.
+// Reads curves from a recorded session in a separate thread, because a session may have millions of
+// ticks.
 #pragma once
 
 #include <QObject>
@@ -10,8 +11,8 @@
 
 namespace dihaptic::gui {
 
-/// The least and the largest value in each of several equal parts of a stretch of time; NaN if
-/// there is none.
+/// The minimum and the maximum in each of several equal parts of a time interval; NaN if a part
+/// contains no value.
 struct RecordedCurve {
     QString name;  ///< the expression
     QString unit;
@@ -23,7 +24,7 @@ class CurveReader : public QObject {
     Q_OBJECT
 
   public:
-    /// Number of parts into which the stretch is divided.
+    /// Number of parts into which the interval is divided.
     static constexpr size_t kParts = 1500;
 
     using QObject::QObject;
@@ -32,14 +33,14 @@ class CurveReader : public QObject {
         std::string log;
         scene::Scene scene;
         QStringList expressions;
-        double begin = 0;  ///< start of the stretch [s]
+        double begin = 0;  ///< start of the interval [s]
         double end = 0;
     };
-    /// Reads these curves; earlier requests are dropped.
+    /// Starts reading these curves; earlier requests are dropped.
     void read(const Wanted& wanted);
 
   Q_SIGNALS:
-    /// All curves, each up to the point that was reached; `share`: share of the stretch that has
+    /// All curves, each up to the point reached so far. `share`: share of the interval that has
     /// been read.
     void progressed(const std::vector<dihaptic::gui::RecordedCurve>& curves, double share);
 

@@ -48,7 +48,7 @@ void DevicePanel::set_devices(const std::vector<Device>& devices) {
         table_->setItem(i, DeviceColumn::status, new QTableWidgetItem(tr("at rest")));
         auto* bar = new QProgressBar;
         bar->setRange(0, 1000);
-        bar->setTextVisible(false);  // the end of the bar would cut through the figures
+        bar->setTextVisible(false);  // the text would be cut by the end of the bar
         table_->setCellWidget(i, DeviceColumn::bar, bar);
         table_->setItem(i, DeviceColumn::force, new QTableWidgetItem);
         show_force(i, 0);
@@ -84,7 +84,7 @@ void DevicePanel::show_frame(const frame::Frame& frame) {
     if (frame.status & kOverrun) ++overruns_;
     if (frame.status & kUnbalanced) ++unbalanced_;
     if (frame.status & kSolverMissed) ++missed_;
-    // slow averages, because figures of single ticks would flicker
+    // slow averages, because the figures of single ticks would flicker
     const auto follow = [](double& value, double now) {
         if (std::isfinite(now)) value += 0.05 * (now - value);
     };

@@ -1,4 +1,4 @@
-// The panel that shows the state of the devices and of the servo's loop.
+// The panel that shows the state of the devices and of the servo loop.
 #pragma once
 
 #include <QLabel>
@@ -17,12 +17,12 @@ class DevicePanel : public QWidget {
     struct Device {
         QString finger;
         QString model;
-        double most_force = 0;  ///< largest force sent [N]
+        double most_force = 0;  ///< largest force that was sent [N]
     };
     void set_devices(const std::vector<Device>& devices);
-    /// Shows a frame. The loop's figures refer to the frames that were shown.
+    /// Shows a frame. The figures of the servo loop cover only the frames that were shown.
     void show_frame(const frame::Frame& frame);
-    /// Shows that no force acts, and the reason.
+    /// Shows that no force acts, and why.
     void rest(const QString& why);
 
   private:

@@ -11,7 +11,8 @@ void (*lost)() = nullptr;
 QtMessageHandler usual_messages = nullptr;
 XIOErrorHandler usual_end = nullptr;
 
-/// After some messages Qt ends the program at once; on Wayland it does not even call exit().
+/// Calls lost() for messages after which Qt ends the program at once; on Wayland, Qt does not even
+/// call exit().
 void on_message(QtMsgType type, const QMessageLogContext& context, const QString& text) {
     usual_messages(type, context, text);
     if (type == QtFatalMsg || text.startsWith("The Wayland connection ") ||

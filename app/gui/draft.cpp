@@ -24,7 +24,7 @@ constexpr const char* kBelow = "dihaptic/drafts";
 
 QString state_folder() {
     const QString given = qEnvironmentVariable("XDG_STATE_HOME");
-    // a relative path is ignored, as the specification demands
+    // a relative path is ignored, as the XDG specification demands
     return given.startsWith('/') ? given : qEnvironmentVariable("HOME") + "/.local/state";
 }
 
@@ -45,7 +45,8 @@ Draft::~Draft() {
     if (lock_) ::unlink(lock_of(path_).constData());
 }
 
-/// The first line states to which file the draft belongs, also for human readers.
+/// The first line of a draft, which tells programs and human readers to which file the draft
+/// belongs.
 QString Draft::head() const {
     return QString("Dihaptic's draft of %1\n").arg(QString(file_).replace('\n', ' '));
 }
@@ -63,7 +64,8 @@ bool Draft::take() {
                 "Check the folder's permissions.");
 }
 
-/// Sets errno; ENOENT means that the previous window has just removed the draft.
+/// Tries to lock the draft. On failure, sets errno; ENOENT means that the previous window has just
+/// removed the draft.
 bool Draft::try_lock() {
     const QByteArray name = lock_of(path_);
     Descriptor lock(::open(name.constData(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600));
@@ -87,12 +89,12 @@ std::optional<Draft::Left> Draft::left() const {
         if (!all.startsWith(head())) return {};
         return Left{all.mid(head().size()), info.lastModified()};
     } catch (const Error&) {
-        return {};  // this was not left by a window
+        return {};  // not a draft left by a window
     }
 }
 
 void Draft::write(const QString& text) const {
-    // other users should not read unfinished work
+    // unfinished work should not be readable by other users
     Output out(path_.toStdString());
     const QString part = QString::fromStdString(out.path());
     QFile file(part);

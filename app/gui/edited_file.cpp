@@ -14,7 +14,8 @@
 namespace dihaptic::gui {
 namespace {
 
-/// The path behind a name, without links; for a missing file, its future path.
+/// The path that a name refers to, with links resolved; for a missing file, the path that it would
+/// have.
 QString path_of(const QString& name) {
     const QFileInfo info(name);
     if (info.exists() || info.isSymLink()) return info.canonicalFilePath();
@@ -27,7 +28,7 @@ std::optional<QByteArray> bytes_of(const QString& file) {
     try {
         return QByteArray::fromStdString(read_bytes(file.toStdString(), kMostYaml));
     } catch (const Error&) {
-        return {};  // opening the file reports the reason
+        return {};  // the reason is reported when the file is opened
     }
 }
 

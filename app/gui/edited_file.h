@@ -1,5 +1,5 @@
-// The file that is open in the editor, in its state on the disk. If another program changes it,
-// removes it or replaces it by a link, this is noticed before anything is written.
+// The file that is open in the editor, as it was last seen on disk. If another program changes the
+// file, removes it or replaces it with a link, this is noticed before anything is written.
 #pragma once
 
 #include <QByteArray>
@@ -8,7 +8,8 @@
 
 namespace dihaptic::gui {
 
-/// A regular file's bytes; nullopt if it cannot be read, or is too large for a text.
+/// The bytes of a regular file; nullopt if the file cannot be read or is too large to be edited as
+/// text.
 std::optional<QByteArray> bytes_of(const QString& file);
 
 class EditedFile {
@@ -18,19 +19,20 @@ class EditedFile {
     explicit EditedFile(const QString& name);
 
     const QString& name() const { return name_; }
-    /// Path of the edited file: the target, if the name is a link.
+    /// Path of the edited file; if the name is a link, the path of its target.
     const QString& path() const { return path_; }
-    /// The file's content when it was last read or written.
+    /// The file's contents when it was last read or written.
     QByteArray content() const { return content_.value_or(QByteArray()); }
     bool was_readable() const { return content_.has_value(); }
     bool is_link() const;
     bool is_there() const;
     bool is_readable() const { return bytes_of(name_).has_value(); }
-    /// Whether the name still leads to the same file as when it was opened.
+    /// Whether the name no longer refers to the same file as when it was opened.
     bool leads_elsewhere() const;
-    /// Whether the file differs from the version read or written: changed bytes, or missing.
+    /// Whether the file on disk differs from the version last read or written, or is missing.
     bool has_changed() const;
-    /// Replaces the file, whatever its name leads to now. Throws Error when this fails.
+    /// Writes the file at its original path, whatever its name refers to now. Throws Error when
+    /// this fails.
     void write(const QByteArray& content);
 
   private:
@@ -39,8 +41,8 @@ class EditedFile {
     std::optional<QByteArray> content_;
 };
 
-/// Replaces the whole file; the new one keeps its permissions. Throws Error, also if the name is a
-/// link.
+/// Replaces the whole file; the new file keeps the permissions. Throws Error when this fails, also
+/// if the name is a link.
 void replace_file(const QString& file, const QByteArray& content);
 
 }  // namespace dihaptic::gui

@@ -20,8 +20,8 @@ struct Free {
 template <class Reply>
 using Answer = std::unique_ptr<Reply, Free>;
 
-/// A connection to the X server that receives every key press, whatever window has the keyboard
-/// focus, and even while a menu grabs it: the "raw events" of XInput 2.1.
+/// A connection to the X server that receives every key press ("raw events" of XInput 2.1),
+/// whichever window has the keyboard focus, and even while a menu grabs the keyboard.
 class Keyboard {
   public:
     Keyboard() : x_(xcb_connect(nullptr, nullptr)) {
@@ -62,7 +62,7 @@ class Keyboard {
     }
 
   private:
-    /// All keys are watched, because any of them may have been mapped to Escape.
+    /// Watches all keys, because any key may have been mapped to Escape.
     void find_escape() {
         constexpr xcb_keysym_t kEscape = 0xff1b;
         const xcb_setup_t& setup = *xcb_get_setup(x_);
@@ -78,7 +78,7 @@ class Keyboard {
     }
 
     xcb_connection_t* x_;
-    uint8_t opcode_ = 0;  // opcode of XInput; 0: none
+    uint8_t opcode_ = 0;  // opcode of XInput; 0 if it is not available
     std::vector<uint32_t> escapes_;
 };
 

@@ -1,5 +1,5 @@
-// Listens for Escape in a separate thread, so that a window that draws slowly, or hangs, does not
-// keep force on.
+// Listens for Escape in a separate thread, so that force can be switched off even while the window
+// hangs or draws slowly.
 #pragma once
 
 #include <QObject>
@@ -10,19 +10,19 @@
 
 namespace dihaptic::gui {
 
-/// Works only on X11; elsewhere it has no effect, and Escape is handled like any other key
+/// Works only on X11. On other systems it has no effect, and Escape is handled like any other key
 /// (Application).
 class EscapeListener : public QObject {
     Q_OBJECT
 
   public:
-    /// Call after the QGuiApplication is made.
+    /// To be called after the QGuiApplication has been created.
     EscapeListener();
     ~EscapeListener() override;
 
   Q_SIGNALS:
-    /// Emitted in the listener's thread, at each press of Escape while a window of this program is
-    /// the active one.
+    /// Emitted in the listener's thread whenever Escape is pressed while a window of this program
+    /// is active.
     void heard();
 
   private:

@@ -12,9 +12,9 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr int kRate = 30;  // pictures a second
+constexpr int kRate = 30;  // pictures per second
 
-/// The content of a window, cut to an even width and height, as videos require.
+/// The contents of a window, cropped to an even width and height, as required for videos.
 Image picture_of(QOpenGLWidget& view, int width, int height) {
     const QImage all = view.grabFramebuffer().convertToFormat(QImage::Format_RGB888);
     Image out{width, height, {}};
@@ -41,7 +41,7 @@ bool make_film(const Film& film, QOpenGLWidget& view, QWidget* parent) {
     const int width = size.width() & ~1, height = size.height() & ~1;
     view::Movie movie(film.file.toStdString(), width, height, kRate);
     for (int i = 0; i < pictures; ++i) {
-        told.setValue(i);  // also handles clicks
+        told.setValue(i);  // also processes mouse clicks
         if (told.wasCanceled()) return false;
         film.show(film.begin + film.speed * i / kRate);
         movie.add(picture_of(view, width, height));

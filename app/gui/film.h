@@ -1,4 +1,4 @@
-// Makes a video of a stretch of a recorded session, as the player shows it.
+// Makes a video of a part of a recorded session, as the player shows it.
 #pragma once
 
 #include <QString>
@@ -11,13 +11,14 @@ namespace dihaptic::gui {
 
 struct Film {
     QString file;
-    double begin = 0, end = 0;         ///< stretch of the session [s]
-    double speed = 1;                  ///< session time over video time
-    std::function<void(double)> show;  ///< shows a moment [s]
+    double begin = 0, end = 0;         ///< start and end of the recorded part [s]
+    double speed = 1;                  ///< ratio of session time to video time
+    std::function<void(double)> show;  ///< shows the session at a given time [s]
 };
 
-/// Makes the video while its window waits, with a progress bar that can cancel it. Returns whether
-/// it was completed. Throws Error when this fails, for instance because ffmpeg is missing.
+/// Makes the video while the window shows a progress bar with which the user can cancel it. Returns
+/// whether the video was completed. Throws Error when this fails, for instance because ffmpeg is
+/// missing.
 bool make_film(const Film& film, QOpenGLWidget& view, QWidget* parent);
 
 }  // namespace dihaptic::gui

@@ -25,7 +25,7 @@ GuideDialog::GuideDialog(const QString& title, const QString& leave, QWidget* pa
     setMinimumWidth(560);
     QFont large = text_->font();
     large.setPointSizeF(large.pointSizeF() *
-                        1.5);  // must be legible while both hands hold something
+                        1.5);  // the text must be legible while both hands are busy
     text_->setFont(large);
     text_->setWordWrap(true);
     text_->setMinimumHeight(120);
@@ -91,7 +91,8 @@ void GuideDialog::show_guidance(const rig::Guidance& now) {
     done_->setEnabled(now.step > 0);
 }
 
-/// Cancels the work, which then closes the dialog; closes it at once if the work has ended.
+/// Cancels the work, whose end then closes the dialog. If the work has already ended, closes the
+/// dialog at once.
 void GuideDialog::reject() {
     given_up_ = true;
     if (ended_) QDialog::reject();

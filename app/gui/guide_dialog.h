@@ -1,5 +1,5 @@
 // The dialog that guides a person through a calibration or its check (rig/calibration_guide.h): it
-// shows the present step, and the progress. The work runs in another thread.
+// shows the current step and the progress. The work runs in another thread.
 #pragma once
 
 #include <QDialog>
@@ -17,22 +17,22 @@ class GuideDialog : public QDialog {
     Q_OBJECT
 
   public:
-    /// `leave`: name of the button that gives up. The dialog is accepted when `work` is done, and
-    /// rejected when the person gave up, or closed it after failed().
+    /// `leave`: label of the button that gives up. The dialog is accepted when `work` is done, and
+    /// rejected when the person gave up or closed the dialog after failed().
     GuideDialog(const QString& title, const QString& leave,
                 std::function<void(const rig::Guide&)> work, QWidget* parent);
-    /// A dialog for work that another thread does with guide() and ends with finish(). The dialog
-    /// must outlive that work.
+    /// Makes a dialog for work that another thread does with guide() and ends with finish(). The
+    /// dialog must outlive that work.
     GuideDialog(const QString& title, const QString& leave, QWidget* parent);
-    /// Cancels, and waits until its own work ends.
+    /// Cancels the work that the dialog itself runs, and waits until it ends.
     ~GuideDialog() override;
 
     void reject() override;
 
-    /// The guide for the working thread.
+    /// The guide to be used by the working thread.
     rig::Guide guide();
-    /// Call from any thread when the work ends; `why`: reason of a failure. Only the first call has
-    /// an effect.
+    /// To be called from any thread when the work ends. `why`: reason of a failure. Only the first
+    /// call has an effect.
     enum class Outcome { done, given_up, failed };
     void finish(Outcome outcome, const QString& why = "");
 

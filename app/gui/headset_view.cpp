@@ -7,7 +7,7 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr int kRefresh = 16;  // time between checks of the headset's events [ms]
+constexpr int kRefresh = 16;  // time between checks for headset events [ms]
 using headset::Words;
 
 }  // namespace
@@ -53,7 +53,7 @@ void HeadsetView::set_banner(const QString& text) {
     banner_->setVisible(!text.isEmpty());
     constexpr int kMargin = 40;
     fit_label(*banner_, Words::kWidth - kMargin);
-    // above the hands, which are in the middle of the view
+    // above the hands, which are in the middle of the field of view
     banner_->move((Words::kWidth - banner_->width()) / 2, kMargin);
     draw_words();
 }
@@ -76,7 +76,7 @@ void HeadsetView::draw_words() {
 
 void HeadsetView::tend() {
     for (const headset::Showing& showing : headset_.take_showings()) Q_EMIT shown(showing);
-    const bool over = headset_.ended();  // asked before its last notes are taken
+    const bool over = headset_.ended();  // checked before the last messages are taken
     for (const headset::Note& note : headset_.take_notes())
         Q_EMIT told(QString::fromStdString(note.text), note.problem);
     if (!over) return;

@@ -1,4 +1,4 @@
-// A person's view in a headset: the scene, and over it the task's texts.
+// A person's view in a headset: the scene, overlaid with the texts of the task.
 #pragma once
 
 #include <QLabel>
@@ -15,24 +15,25 @@ class HeadsetView : public QObject {
   public:
     explicit HeadsetView(const display::Headset& place);
 
-    /// Whether the headset's space has this pose.
+    /// Whether the headset's coordinate system has this pose.
     bool is_at(const display::Headset& place) const;
-    /// Shows a fixed frame of the scene.
+    /// Shows a single, fixed frame of the scene.
     void set_scene(const scene::Scene& scene, const frame::Frame& frame);
-    /// Shows the newest of `frames`, which come from a running session with this scene. Nothing
-    /// else may read them.
+    /// Shows the newest of `frames`, which come from a running session of this scene. Nothing else
+    /// may read `frames`.
     void follow(const scene::Scene& scene, std::shared_ptr<headset::Headset::Frames> frames);
-    /// The frames for a session; until its first one, the given frame is shown.
+    /// Makes the frames for a session. Until the session's first frame, the given one is shown.
     static std::shared_ptr<headset::Headset::Frames> frames_from(const frame::Frame& frame);
     void set_banner(const QString& text);
-    /// Sets the page in place of the scene (page_view.h); empty: none.
+    /// Sets the page shown instead of the scene (page_view.h); if both arguments are empty, the
+    /// scene is shown.
     void set_page(const QString& text, const QString& picture);
 
   Q_SIGNALS:
-    /// A message of the headset, or its runtime.
+    /// A message from the headset or its runtime.
     void told(const QString& what, bool problem);
     void shown(const dihaptic::headset::Showing& showing);
-    /// The headset has stopped showing; told() has given the reason.
+    /// The headset has stopped showing pictures; told() has given the reason.
     void ended();
 
   private:

@@ -1,13 +1,13 @@
-// Shows pages of the manual in the browser: those of the package dihaptic-doc, those made by ./dev
-// docs, or the texts from which they are made.
+// Shows pages of the manual in the browser: the pages of the package dihaptic-doc, those built by
+// ./dev docs, or the source texts.
 #pragma once
 
 #include <QString>
 
 namespace dihaptic::gui {
 
-/// `name` of a page, such as "window"; "index" is the whole manual. Returns the reason if it cannot
-/// be shown, otherwise "".
+/// Shows the page with this name, e.g. "window"; "index" is the start page of the manual. If the
+/// page cannot be shown, returns the reason, otherwise "".
 QString show_help_page(const QString& name);
 
 }  // namespace dihaptic::gui

@@ -1,4 +1,4 @@
-// Menu entries for the layers of a scene's widget, in every window with a scene.
+// Menu entries for the layers of a scene widget, used by all windows that show a scene.
 #pragma once
 
 #include "scene_widget.h"
@@ -8,12 +8,13 @@ class QMenu;
 
 namespace dihaptic::gui {
 
-/// An entry that draws a layer while it is checked.
+/// Adds a menu entry; the layer is drawn while the entry is checked.
 void add_layer(QMenu& menu, SceneWidget& scene, const QString& name,
                bool SceneWidget::Layers::*which);
-/// The entries for layers that any frame has.
+/// Adds the entries for the layers that any frame has.
 void add_layers(QMenu& menu, SceneWidget& scene);
-/// The entry that draws all pixels while it is checked; it is unchecked if a processor draws.
+/// Adds the entry for drawing at full resolution. It is initially unchecked if pictures are drawn
+/// in software.
 QAction* add_fine_pictures(QMenu& menu, SceneWidget& scene);
 
 }  // namespace dihaptic::gui

@@ -44,7 +44,7 @@ Opened open(const Wanted& wanted, std::unique_ptr<devices::DeviceGroup>& devices
     const std::vector<std::string> fingers = scene::finger_names(out.plan.scene);
     const std::vector<Pose> X_WD = rig::poses(out.plan.rig, fingers);
     out.turn = servo::WorkspaceTurn(X_WD);
-    // the first frame is computed on simulated devices: real ones are left alone
+    // the first frame is computed with simulated devices, without touching real ones
     session::Plan still = out.plan;
     still.rig = rig::simulated_rig(fingers);
     const auto resting = session::make_servo(still);
@@ -59,7 +59,8 @@ Opened open(const Wanted& wanted, std::unique_ptr<devices::DeviceGroup>& devices
     return out;
 }
 
-/// The loader that is notified of waits for companions; the program has one window.
+/// The loader to notify when a companion program must be waited for. The program has one window, so
+/// there is only one loader.
 std::atomic<Loader*> told{nullptr};
 
 void tell_of_wait(const std::string& what, int seconds, int most) {
@@ -100,7 +101,7 @@ void Loader::load(const Wanted& wanted) {
 void Loader::run(const Wanted& wanted) {
     std::optional<Opened> result;
     QStringList problems;
-    devices_.reset();  // devices of a session that was not started
+    devices_.reset();  // devices opened for a session that did not start
     std::optional<Unsaved> unsaved;
     if (wanted.text) unsaved.emplace(wanted.request.file, *wanted.text);
     try {

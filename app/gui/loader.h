@@ -1,5 +1,5 @@
 // Reads and checks files for the window, and opens the devices of its sessions, in a separate
-// thread: cutting a mesh may take a while, as may a device's answer.
+// thread, because cutting up a mesh or waiting for a device may take a while.
 #pragma once
 
 #include <QObject>
@@ -13,29 +13,29 @@
 
 namespace dihaptic::gui {
 
-/// A file without errors, and its view before it runs.
+/// A file without errors, and the scene as shown before a session runs.
 struct Opened {
     session::Plan plan;
-    frame::Frame frame;  ///< the first one
+    frame::Frame frame;  ///< the first frame
     std::vector<DevicePanel::Device> devices;
     std::vector<view::Workspace> workspaces;
     servo::WorkspaceTurn turn;
-    /// For a session that continues another one: its participant, its place in a study,
-    /// and lines for the log.
+    /// For a session that continues another session: its participant, its place in a study, and
+    /// lines for the log.
     std::optional<recording::Participant> participant;
     std::optional<recording::InStudy> in_study;
     QStringList told;
 };
 
-/// What to open.
+/// What is to be opened.
 struct Wanted {
     session::Request request;
-    /// Whether a session follows, so that its devices are opened too; otherwise none are.
+    /// Whether a session will follow; if so, its devices are opened too.
     bool to_run = false;
-    bool by_person = false;  ///< a simulated person moves the hand
-    /// Folder of the session to resume, in place of the request; "": none.
+    bool by_person = false;  ///< whether a simulated person moves the hand
+    /// Folder of the session to resume, instead of the request's file; "" if none is resumed.
     std::string resumes;
-    /// Text that replaces the content of the request's file.
+    /// Text to be used instead of the contents of the request's file.
     std::optional<std::string> text = std::nullopt;
 };
 
@@ -46,20 +46,21 @@ class Loader : public QObject {
     explicit Loader(QObject* parent = nullptr);
     ~Loader() override;
 
-    /// Opens what is wanted, and drops the result of an earlier call that is not finished.
+    /// Starts opening what is wanted. If an earlier call has not finished, its result is dropped.
     void load(const Wanted& wanted);
     bool loading() const { return thread_.joinable(); }
-    /// The devices that were opened for the session that follows; null if none does. To be called
-    /// when opened() is emitted.
+    /// The devices that were opened for the session that follows; null if none follows. To be
+    /// called when opened() is emitted.
     std::unique_ptr<devices::DeviceGroup> take_devices() { return std::move(devices_); }
-    /// Ends reading and cutting of a scene's meshes; refused() reports it.
+    /// Stops the reading of files and the cutting up of meshes; refused() then reports the
+    /// cancellation.
     void cancel();
 
   Q_SIGNALS:
     void opened(const dihaptic::gui::Opened& opened);
     void refused(const QStringList& problems);
-    /// Emitted after a second, and again whenever that time has doubled, with the work that takes
-    /// so long and its time limit [s].
+    /// Emitted after one second of waiting, and again whenever the waiting time has doubled.
+    /// `what`: the work that takes so long; `most`: its time limit [s].
     void waits(const QString& what, int seconds, int most);
 
   private:
@@ -68,7 +69,7 @@ class Loader : public QObject {
 
     std::jthread thread_;
     std::optional<Wanted> next_;
-    std::unique_ptr<devices::DeviceGroup> devices_;  // used by the thread while it runs
+    std::unique_ptr<devices::DeviceGroup> devices_;  // used by the thread while the thread runs
 };
 
 }  // namespace dihaptic::gui

@@ -1,4 +1,4 @@
-// The log, which keeps its last line in sight.
+// The log panel, which always scrolls to the last line.
 #pragma once
 
 #include <QScrollBar>
@@ -15,7 +15,7 @@ class LogView : public PlainText {
         setMaximumBlockCount(5000);
         setAccessibleName(QObject::tr("Log"));
     }
-    /// Adds a line with the time of day; a problem is bold.
+    /// Appends a line, preceded by the time of day; problems are set in bold.
     void add(const QString& text, bool problem) {
         QString html = text.toHtmlEscaped();
         html.replace("\n", "<br>");

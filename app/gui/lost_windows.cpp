@@ -16,7 +16,7 @@ bool LostWindows::nativeEventFilter(const QByteArray& kind, void* message, qintp
     const auto& event = *static_cast<const xcb_generic_event_t*>(message);
     if ((event.response_type & 0x7f) != XCB_DESTROY_NOTIFY) return false;
     const auto& gone = reinterpret_cast<const xcb_destroy_notify_event_t&>(event);
-    // a window that the program itself destroyed no longer belongs to a widget
+    // find() returns no widget if the program itself destroyed the window
     const QPointer<QWidget> window = QWidget::find(gone.window);
     if (!window || !window->isWindow()) return false;
     QMetaObject::invokeMethod(

@@ -1,5 +1,6 @@
 // Detects windows that another program destroys in the X server (xdotool windowclose, a window
-// manager's kill). Qt continues as if they existed, although nobody can see, answer or close them.
+// manager's kill). Qt continues as if these windows existed, although nobody can see, answer or
+// close them.
 #pragma once
 
 #include <QAbstractNativeEventFilter>
@@ -12,12 +13,12 @@ class LostWindows : public QObject, public QAbstractNativeEventFilter {
     Q_OBJECT
 
   public:
-    /// From now on the program's windows are watched, as long as this lives.
+    /// Starts watching the program's windows, for as long as this object lives.
     LostWindows();
     bool nativeEventFilter(const QByteArray& kind, void* message, qintptr* result) override;
 
   Q_SIGNALS:
-    /// Emitted for a destroyed window, after the earlier events have been handled.
+    /// Emitted when a window was destroyed, after all earlier events have been handled.
     void lost(QWidget* window);
 };
 

@@ -18,7 +18,7 @@
 
 namespace {
 
-/// Shows recorded sessions, and nothing else.
+/// Opens windows for recorded sessions only, without the operator's window.
 int look_at(const QStringList& folders) {
     try {
         dihaptic::gui::open_sessions(folders);
@@ -29,7 +29,8 @@ int look_at(const QStringList& folders) {
     return QApplication::exec();
 }
 
-/// A window that is not visible counts as closed.
+/// Handles the destruction of a window by another program: a window that nobody can see counts as
+/// closed.
 void end_unseen(QWidget* gone) {
     if (auto* const window = qobject_cast<dihaptic::gui::OperatorWindow*>(gone)) {
         window->end_unseen();
@@ -46,7 +47,7 @@ int main(int argc, char** argv) {
     dihaptic::gui::at_display_loss(dihaptic::gui::SessionRunner::end_program);
     QApplication::setOrganizationName("dihaptic");
     QApplication::setApplicationName("dihaptic");
-    // name of the package's desktop entry, by which a desktop finds the icon
+    // name of the package's desktop entry, by which desktops find the icon
     QApplication::setDesktopFileName("org.dihaptic.Dihaptic");
     QApplication::setWindowIcon(QIcon::fromTheme("org.dihaptic.Dihaptic"));
     QApplication::setApplicationVersion(

@@ -6,21 +6,21 @@
 namespace dihaptic::gui {
 namespace {
 
-/// The box of positions of a hand at a desk [m].
+/// The box that contains the positions of a hand at a desk [m].
 const Vec3 kLeast(-0.3, -0.25, 0.005);
 const Vec3 kFarthest(0.3, 0.25, 0.4);
-constexpr double kBeyond = 0.5;    // how far the pointer may go beyond that box [m]
+constexpr double kBeyond = 0.5;    // how far beyond that box the pointer may go [m]
 constexpr double kWidest = 0.16;   // largest aperture [m]
-constexpr double kStrongest = 16;  // grip of a strong hand [N]
-constexpr double kQuickly = 3;     // ratio of the speed of letting go to that of opening
-constexpr double kHeld = 0.5;      // grip force of a holding hand [N]
+constexpr double kStrongest = 16;  // grip force of a strong hand [N]
+constexpr double kQuickly = 3;     // factor on the opening speed while an object is held
+constexpr double kHeld = 0.5;      // grip force above which an object is held [N]
 
 }  // namespace
 
 void MouseHand::move(const QPointF& pixels, const scene::Camera& camera, int height,
                      bool in_depth) {
     const Vec3 sight = (camera.look_at - camera.position).normalized();
-    // a line of sight straight down does not define left and right: then the world's are used
+    // looking straight down does not define left and right; then the world's axes are used
     Vec3 away(sight.x(), sight.y(), 0);
     away = away.norm() > 1e-6 ? Vec3(away.normalized()) : Vec3(0, 1, 0);
     const Vec3 right = away.cross(Vec3::UnitZ());
@@ -40,7 +40,7 @@ void MouseHand::turn(const QPointF& pixels) {
 
 void MouseHand::set_grip(double grip) {
     grip_ = grip;
-    // the held object is gone, and the fingers must not cross
+    // the object is no longer held, and the fingers must not cross
     if (!(grip > kHeld)) goal_.aperture = std::max(0.0, goal_.aperture);
 }
 
@@ -64,7 +64,7 @@ void MouseHand::squeeze(Squeeze keys, double h) {
 }
 
 void MouseHand::close(double way) {
-    if (way > 0 && grip_ > most_grip_) return;  // so that letting go takes effect at once
+    if (way > 0 && grip_ > most_grip_) return;  // closing further would delay the release
     const bool held = grip_ > kHeld;
     if (way < 0 && held) way *= kQuickly;
     goal_.aperture =

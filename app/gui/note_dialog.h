@@ -1,4 +1,4 @@
-// Asks for a note about a session.
+// Asks the operator for a note about a session.
 #pragma once
 
 #include <QString>
@@ -8,7 +8,7 @@ class QWidget;
 
 namespace dihaptic::gui {
 
-/// `before`: the present note. Returns nullopt if it stays unchanged.
+/// `before`: the existing note. Returns nullopt if the note stays unchanged.
 std::optional<QString> ask_for_note(const QString& session, const QString& before, QWidget* parent);
 
 }  // namespace dihaptic::gui

@@ -1,6 +1,6 @@
-// A field for a number that looks and is typed the same in every language, with a decimal point, as
-// in files. A typed comma becomes a point; Qt's own field would take it for a thousands separator,
-// and read 1,5 as 15.
+// A number field that looks the same in every language and uses a decimal point, as files do. A
+// typed comma becomes a point; Qt's own field would take the comma for a thousands separator, and
+// read 1,5 as 15.
 #pragma once
 
 #include <QDoubleSpinBox>

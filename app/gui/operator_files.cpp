@@ -35,7 +35,7 @@ void OperatorWindow::connect_files() {
 }
 
 void OperatorWindow::choose_file() {
-    // loading that ends while the dialog is open must not start a session
+    // if loading ends while the dialog is open, no session must start
     control_.forget_start();
     const QString& now = control_.file();
     const QString start = now.isEmpty() ? QString("experiments") : QFileInfo(now).path();
@@ -72,7 +72,7 @@ session::Request OperatorWindow::request() const {
     request.mouse = session_->hand() == SessionPanel::Hand::mouse;
     request.simulate = session_->hand() == SessionPanel::Hand::person;
     request.participant = session_->participant().toStdString();
-    // only to show a file that requires a participant; a session has its own participant
+    // needed to show files that require a participant; a session has its own participant
     if (request.participant.empty()) request.participant = "S01";
     request.set.emplace_back("proxy.changeable=yes");
     return request;
@@ -126,7 +126,7 @@ void OperatorWindow::pick(size_t body) {
     if (!control_.plan() || !compose_dock_->isVisible()) return;
     const scene::Body& picked = control_.plan()->scene.bodies[body];
     if (composer_->go_to(picked.place)) {
-        composer_->move(picked.name, {});  // reports now if the body cannot be moved
+        composer_->move(picked.name, {});  // reports at once if the body cannot be moved
     } else {
         composer_->tell(tr("%1 is in %2: open that file to change it.")
                             .arg(QString::fromStdString(picked.name),
@@ -136,14 +136,14 @@ void OperatorWindow::pick(size_t body) {
 
 void OperatorWindow::move_body(const std::string& name, const BodyWay& way, bool shown) {
     if (!composer_->move(name, way)) {
-        scene_->show_frame(control_.first_frame());  // back where it was
+        scene_->show_frame(control_.first_frame());  // shows the body where it was
     } else if (!shown) {
         scene_->move_picked(way);
     }
 }
 
 void OperatorWindow::step_body(const Vec3& step) {
-    mark_picked();  // the cursor may have moved since
+    mark_picked();  // the cursor may have moved meanwhile
     move_body(composer_->body(), {step, 0}, false);
 }
 

@@ -1,4 +1,4 @@
-// The operator's window: its menus, and its remembered settings.
+// The operator's window: its menus and saved settings.
 #include "operator_window.h"
 
 #include <QCoreApplication>
@@ -92,7 +92,7 @@ void OperatorWindow::make_session_menu() {
     enable(session->addAction(tr("Do &one tick"), QKeySequence("Ctrl+."), this,
                               [this] { control_.runner().step(1); }),
            Act::step);
-    // Application sees this key, whichever widget has the keyboard focus
+    // Application handles this key, whichever widget has the keyboard focus
     add(tr("&Force off"), Qt::Key_Escape, Act::force_off, this, &OperatorWindow::force_off);
     session->addSeparator();
     enable(session->addAction(tr("Checklist &before the session ..."), this,
@@ -145,7 +145,7 @@ void OperatorWindow::make_view_menu() {
     QMenu* panels = view->addMenu(tr("Pa&nels"));
     for (QDockWidget* dock : findChildren<QDockWidget*>()) {
         panels->addAction(dock->toggleViewAction());
-        // a panel that shares its place with others is behind them
+        // a panel that shares its place with others would otherwise stay behind them
         connect(dock->toggleViewAction(), &QAction::triggered, dock, &QWidget::raise);
     }
 }

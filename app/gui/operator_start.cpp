@@ -1,4 +1,4 @@
-// The operator's window: everything before a session, up to its start.
+// The operator's window: the steps before a session, up to its start.
 #include "operator_window.h"
 
 #include <QDate>
@@ -28,7 +28,7 @@ QString finger_help() {
         "H: the finger stays, or moves on.   F4: it goes back to its start.   Escape: force off.");
 }
 
-/// Identifier of a simulated person, unless the operator gives another.
+/// Identifier of a simulated person, unless the operator enters another.
 const std::string kSimulated = "sim-001";
 
 QString question_of(const session::Unfinished& session, const std::string& participant) {
@@ -45,7 +45,7 @@ QString question_of(const session::Unfinished& session, const std::string& parti
              done, QString::fromStdString(session.moved_by.describe()));
 }
 
-/// Peak force of the weakest device [N].
+/// Peak force of the device with the lowest peak force [N].
 double least_peak(const session::Plan& plan) {
     double out = std::numeric_limits<double>::infinity();
     for (const frame::DeviceInfo& device : plan.devices)
@@ -58,7 +58,7 @@ double least_peak(const session::Plan& plan) {
 void OperatorWindow::start() {
     composer_->check_now();
     if (!control_.want_start()) return;
-    // dangerous faults are checked before; the rest may be checked at any time
+    // dangerous faults have been checked by now; the checklist is needed only for real devices
     if (rig::is_real(control_.plan()->rig)) {
         show_checklist(true);
     } else {

@@ -21,11 +21,11 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr int kPictureTime = 16;  // time between pictures [ms]: sixty a second
+constexpr int kPictureTime = 16;  // time between pictures [ms]: 60 per second
 constexpr double kLongestStep =
     0.1;  // longest step of squeezing: the grip is known from the last picture [s]
 
-/// The state of the rig's patch in a frame; nullopt if there is none.
+/// The state of the rig's patch in a frame; nullopt if the rig has no patch.
 std::optional<view::PatchLook> patch_of(const session::Plan& plan, const frame::Frame& frame) {
     if (!plan.rig.patch) return {};
     const bool in_state = plan.task && frame.trial > 0 && frame.phase > 0 && frame.task.outcome < 0;
@@ -69,7 +69,7 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
 
 OperatorWindow::~OperatorWindow() = default;
 
-/// Feeds the panels that only show what the control reports.
+/// Connects the panels that only display what the session control reports.
 void OperatorWindow::connect_panels(PlotsPanel* plots, TrialsPanel* trials, DevicePanel* devices,
                                     TuningPanel* tuning) {
     connect(&control_, &SessionControl::opened, this, [=](const Opened& opened) {
@@ -97,8 +97,8 @@ void OperatorWindow::make_docks() {
     auto* mirror = new ParticipantMirror;
     connect_panels(plots_panel, trials_panel, device_panel, tuning_panel);
     connect_mirror(mirror);
-    // `name`: for saveState(), in any language; `entry`: its entry in the menu. The panel's title
-    // is the same without its mnemonic.
+    // `name`: identifies the panel in saveState(), in any language; `entry`: text of its menu
+    // entry, which is also the panel's title, without the mnemonic.
     const auto add = [&](const char* name, const QString& entry, QWidget* widget,
                          Qt::DockWidgetArea area) {
         auto* dock = new QDockWidget(QString(entry).remove('&'));
@@ -109,7 +109,7 @@ void OperatorWindow::make_docks() {
         return dock;
     };
     add("Session", tr("&Session"), session_, Qt::RightDockWidgetArea);
-    // a laptop's screen is too low for all of a panel
+    // the screen of a laptop is not high enough for a whole panel
     const auto scrolled = [](QWidget* widget) {
         auto* area = new QScrollArea;
         area->setWidget(widget);
@@ -132,7 +132,7 @@ void OperatorWindow::make_docks() {
     compose_dock_ = add("File", tr("&File"), composer_, Qt::LeftDockWidgetArea);
     compose_dock_->hide();
     resizeDocks({devices, log}, {148, 148}, Qt::Vertical);
-    resizeDocks({tuning_dock, plots}, {236, 240}, Qt::Vertical);  // shows all of the first dock
+    resizeDocks({tuning_dock, plots}, {236, 240}, Qt::Vertical);  // shows the whole first dock
     resizeDocks({plots}, {380}, Qt::Horizontal);
     resizeDocks({compose_dock_}, {480}, Qt::Horizontal);
 }
@@ -181,7 +181,7 @@ void OperatorWindow::connect_participants() {
     });
     connect(&participants_, &ParticipantWindows::shown_to_head, this,
             [this](const headset::Showing& showing) { control_.runner().note_shown(showing); });
-    // pictures in the first window are taken as seen by the participant
+    // the participant is assumed to see the pictures in the first window
     connect(&participants_, &ParticipantWindows::presented, this,
             [this](qint64 tick) { control_.runner().note_shown(tick); });
 }
@@ -189,7 +189,7 @@ void OperatorWindow::connect_participants() {
 void OperatorWindow::connect_session() {
     connect(session_, &SessionPanel::open_requested, this, &OperatorWindow::choose_file);
     connect(session_, &SessionPanel::choice_changed, this, [this] {
-        control_.drop_start();  // the session about to start was prepared with another choice
+        control_.drop_start();  // the session was prepared with the previous choice
         reload();
     });
     connect(session_, &SessionPanel::start_requested, this, &OperatorWindow::start);
@@ -209,7 +209,7 @@ void OperatorWindow::keyPressEvent(QKeyEvent* event) {
 
 void OperatorWindow::turn_workspaces() {
     const bool follow = follow_action_->isChecked();
-    // an object felt on the right must be seen on the right, by the participant too
+    // an object felt on the right must be seen on the right by the participant, too
     if (follow) participants_.each([&](SceneWidget& scene) { scene.set_camera(scene_->camera()); });
     if (control_.runner().running())
         control_.runner().turn_workspaces(follow ? view::azimuth(scene_->camera()) : 0);
@@ -217,7 +217,7 @@ void OperatorWindow::turn_workspaces() {
 
 void OperatorWindow::force_off() {
     control_.take_force_away();
-    // a number that is being typed, and is not yet valid, is undone
+    // a number that is still being typed and is not yet valid is reset
     if (auto* const number = qobject_cast<QDoubleSpinBox*>(QApplication::focusWidget()))
         number->setValue(number->value());
 }
@@ -257,7 +257,7 @@ void OperatorWindow::refresh() {
     move_hand(h);
 }
 
-/// The picture that the person mainly watches.
+/// The view that the person mainly looks at.
 SceneWidget& OperatorWindow::first_scene() {
     return participants_.first() == nullptr ? *scene_ : *participants_.first();
 }
@@ -300,7 +300,7 @@ void OperatorWindow::show_participant_window(bool shown) {
     show_state();
 }
 
-/// Lets the headset, if there is one, read the running session's frames.
+/// If there is a headset, lets it read the frames of the running session.
 void OperatorWindow::follow_in_headset() {
     const SessionRunner& runner = control_.runner();
     if (HeadsetView* const headset = participants_.headset(); headset && runner.running())
@@ -345,7 +345,7 @@ void OperatorWindow::log(const QString& text, bool problem) {
 
 void OperatorWindow::closeEvent(QCloseEvent* event) {
     if (control_.runner().running()) {
-        // the window closes once the session's files are written
+        // the window closes as soon as the session's files are written
         closing_ = true;
         control_.runner().end();
         log(tr("ending the session ..."));
@@ -353,7 +353,7 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
         return;
     }
     if (ended_ || lost_) {
-        leave_text();  // the user cannot be asked
+        leave_text();  // it is too late to ask the user
     } else if (!may_leave_text()) {
         return event->ignore();
     }
@@ -362,9 +362,9 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
     settings.setValue("docks", saveState());
     participants_.close();
     event->accept();
-    // windows of recorded sessions do not keep the program running
+    // windows with recorded sessions must not keep the program running
     QMetaObject::invokeMethod(qApp, &QApplication::closeAllWindows, Qt::QueuedConnection);
-    if (ended_ || lost_) QCoreApplication::exit(ended_ ? 1 : 0);  // even if a dialog is open
+    if (ended_ || lost_) QCoreApplication::exit(ended_ ? 1 : 0);  // exits even if a dialog is open
 }
 
 }  // namespace dihaptic::gui

@@ -54,7 +54,7 @@ void PageView::resizeEvent(QResizeEvent* event) {
     fit();
 }
 
-/// Fits the letters, which must be legible from a chair, and the picture to the page.
+/// Scales the picture and the letters to the page; letters must be legible from a chair.
 void PageView::fit() {
     setStyleSheet(QString("background: #14181e; color: white; font-size: %1px;")
                       .arg(std::max(20, height() / 30)));

@@ -1,5 +1,5 @@
-// A page that a task shows in place of the scene: text, in Markdown, and a picture above it, which
-// moves if its file is animated.
+// A page that a task shows instead of the scene: Markdown text with a picture above it, which moves
+// if the file is animated.
 #pragma once
 
 #include <QLabel>
@@ -14,10 +14,10 @@ class PageView : public QWidget {
   public:
     explicit PageView(QWidget* parent);
 
-    /// `picture`: a file, or empty. Without text and picture there is no page. Returns whether the
-    /// page changed.
+    /// Sets the page and returns whether it changed. `picture`: path of a file; empty if there is
+    /// no picture. If both arguments are empty, there is no page.
     bool set_page(const QString& text, const QString& picture);
-    /// Calls `moved` whenever the picture has moved.
+    /// Calls `moved` whenever an animated picture has changed.
     void on_move(std::function<void()> moved) { moved_ = std::move(moved); }
 
   protected:
@@ -30,7 +30,7 @@ class PageView : public QWidget {
     QString text_;
     QString file_;
     QPixmap whole_;
-    std::unique_ptr<QMovie> movie_;  ///< null: the picture stands still
+    std::unique_ptr<QMovie> movie_;  ///< null if the picture is not animated
     std::function<void()> moved_;
     QLabel* picture_;
     QLabel* words_;

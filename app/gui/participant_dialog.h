@@ -1,4 +1,4 @@
-// The dialog that asks for the participant before a session with trials.
+// The dialog that asks for the participant's data before a session with trials.
 #pragma once
 
 #include <QComboBox>
@@ -14,8 +14,8 @@ class ParticipantDialog : public QDialog {
     Q_OBJECT
 
   public:
-    /// `known`: initial content of the fields. `needs_number`: the order of the trials depends on
-    /// the number at the end of the identifier.
+    /// `known`: initial contents of the fields. `needs_number`: whether the order of the trials
+    /// depends on the number at the end of the identifier.
     ParticipantDialog(const recording::Participant& known, bool needs_number, QWidget* parent);
     recording::Participant participant() const;
 

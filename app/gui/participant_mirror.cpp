@@ -5,8 +5,8 @@
 namespace dihaptic::gui {
 namespace {
 
-/// Time between two pictures of the mirror [ms]. The scene is drawn once more for each, which takes
-/// long without a graphics card.
+/// Time between two pictures of the mirror [ms]. Each requires drawing the scene once more, which
+/// takes long without a graphics card.
 constexpr int kBetween = 250;
 
 }  // namespace
@@ -25,7 +25,7 @@ void ParticipantMirror::follow(SceneWidget* scene, const QString& why) {
         if (scene_) scene_->disconnect(this);
         scene_ = scene;
         picture_ = {};
-        // an unchanged view needs no new picture
+        // a new picture is needed only when the view has changed
         if (scene != nullptr)
             connect(scene, &QOpenGLWidget::frameSwapped, this, [this] {
                 if (isVisible() && !wait_.isActive()) wait_.start();

@@ -1,4 +1,4 @@
-// A small copy of the participant's view, for the operator: the picture of the participant's first
+// A small copy of the participant's view for the operator: the picture in the participant's first
 // window, including texts.
 #pragma once
 
@@ -16,8 +16,8 @@ class ParticipantMirror : public QWidget {
   public:
     ParticipantMirror();
 
-    /// `scene`: widget of the participant's first window. Null: there is none, and `why` is shown
-    /// instead.
+    /// Mirrors `scene`, the widget in the participant's first window. If it is null because there
+    /// is no such window, shows `why` instead.
     void follow(SceneWidget* scene, const QString& why);
 
     QSize sizeHint() const override { return {320, 200}; }
@@ -27,12 +27,12 @@ class ParticipantMirror : public QWidget {
     void showEvent(QShowEvent* event) override;
 
   private:
-    /// Takes a picture, if the mirror is visible.
+    /// Takes a new picture if the mirror is visible.
     void look();
 
     QPointer<SceneWidget> scene_;
     QString why_;
-    QTimer wait_;  // runs between two pictures
+    QTimer wait_;  // waiting time between two pictures
     QPixmap picture_;
 };
 

@@ -12,9 +12,9 @@ namespace dihaptic::gui {
 char task_key(const QKeyEvent& event) {
     const QString text = event.text();
     if (event.isAutoRepeat() || text.size() != 1 || text[0].unicode() > 127) return 0;
-    // keys for typing numbers
+    // other keys needed to type numbers
     if (QStringLiteral(".-\r\b").contains(text[0])) return text[0].toLatin1();
-    if (text[0] == ',') return '.';  // comma on the number block of some keyboards
+    if (text[0] == ',') return '.';  // comma on the numeric keypad of some keyboards
     return text[0].isLetterOrNumber() ? text[0].toLatin1() : '\0';
 }
 

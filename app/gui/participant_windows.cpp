@@ -7,9 +7,9 @@ namespace dihaptic::gui {
 
 namespace {
 
-constexpr std::chrono::milliseconds kFollow{4};  // no screen is faster
+constexpr std::chrono::milliseconds kFollow{4};  // no screen shows pictures faster
 
-/// The number of windows for a rig.
+/// The number of windows that a rig needs.
 size_t windows_of(const rig::Rig& rig) {
     return rig.displays.empty() && !rig.headset ? 1 : rig.displays.size();
 }
@@ -29,7 +29,8 @@ void ParticipantWindows::track(const std::optional<outlets::TrackedHead>& head) 
     head ? follow_.start() : follow_.stop();
 }
 
-/// A tracker's library may do anything once it is loaded.
+/// Starts tracking the head. The libraries are checked first, because a tracker's library may do
+/// anything once it is loaded.
 void ParticipantWindows::track_head_of(const rig::Rig& rig) {
     try {
         if (rig.head) rig::check_libraries(rig);
@@ -80,7 +81,7 @@ void ParticipantWindows::add(const display::Headset& headset) {
     headset_ = std::make_unique<HeadsetView>(headset);
     connect(headset_.get(), &HeadsetView::told, this, &ParticipantWindows::told);
     connect(headset_.get(), &HeadsetView::shown, this, &ParticipantWindows::shown_to_head);
-    // queued, because the receiver deletes the headset
+    // a queued connection, because the receiver deletes the headset
     connect(headset_.get(), &HeadsetView::ended, this, &ParticipantWindows::headset_ended,
             Qt::QueuedConnection);
 }
@@ -91,7 +92,7 @@ void ParticipantWindows::add(const std::optional<display::Display>& display) {
     connect(&window, &ParticipantWindow::key_pressed, this, &ParticipantWindows::key_pressed);
     connect(&window.scene().questions(), &QuestionsView::clicked, this,
             &ParticipantWindows::clicked);
-    // queued, because the receiver deletes the window
+    // a queued connection, because the receiver deletes the window
     connect(&window, &ParticipantWindow::closed, this, &ParticipantWindows::closed,
             Qt::QueuedConnection);
     const QString monitor = display ? QString::fromStdString(display->monitor) : "";

@@ -1,5 +1,5 @@
-// The windows for the participant: one for each display of the rig, besides the view in its
-// headset; a rig with neither gets one window.
+// The participant's windows: one for each display of the rig, in addition to the view in a headset.
+// A rig with neither displays nor a headset gets one window.
 #pragma once
 
 #include <QTimer>
@@ -16,39 +16,40 @@ class ParticipantWindows : public QObject {
     Q_OBJECT
 
   public:
-    /// `beside`: the operator's window, whose monitor is avoided if there is another.
+    /// `beside`: the operator's window. Its monitor is avoided if there is another.
     explicit ParticipantWindows(QWidget& beside);
 
-    /// Opens the windows for a rig.
+    /// Opens the windows that a rig needs.
     void open(const rig::Rig& rig);
     void close();
-    /// Whether the participant looks at the operator's window.
+    /// Whether there is no window or headset, so that the participant looks at the operator's
+    /// window.
     bool empty() const { return windows_.empty() && !headset_; }
-    /// The participant's main window; null if there is none.
+    /// The scene in the participant's main window; null if there is no window.
     SceneWidget* first() { return windows_.empty() ? nullptr : &windows_.front()->scene(); }
     HeadsetView* headset() { return headset_.get(); }
-    /// Gives the windows a scene, and a rig, which may differ from the last one.
+    /// Passes a scene and a rig, which may differ from the previous ones, to the windows.
     void set_scene(const scene::Scene& scene, const frame::Frame& frame, const rig::Rig& rig);
-    /// Calls f(SceneWidget&) for each.
+    /// Calls f(SceneWidget&) for each window.
     template <class F>
     void each(const F& f) {
         for (const auto& window : windows_) f(window->scene());
     }
 
   Q_SIGNALS:
-    /// A different set of windows is open now; there may be none.
+    /// The set of open windows has changed; it may be empty.
     void changed();
     void closed();
     void key_pressed(char key);
-    /// A question's line was clicked.
+    /// The line of a question was clicked.
     void clicked(const dihaptic::task::Click& click);
-    /// The picture of a tick was handed to the participant's main screen.
+    /// The picture of a tick was passed to the participant's main screen.
     void presented(qint64 tick);
-    /// A picture was handed to a headset, or to a screen that is drawn for a tracked head.
+    /// A picture was passed to a headset, or to a screen that is drawn for a tracked head.
     void shown_to_head(const dihaptic::headset::Showing& showing);
-    /// The headset has stopped showing.
+    /// The headset has stopped showing pictures.
     void headset_ended();
-    /// A monitor is missing, or a headset or tracker has a message.
+    /// A monitor is missing, or the headset or the tracker has sent a message.
     void told(const QString& what, bool problem);
 
   private:
@@ -56,12 +57,12 @@ class ParticipantWindows : public QObject {
     void add(const display::Headset& headset);
     void track_head_of(const rig::Rig& rig);
     void track(const std::optional<outlets::TrackedHead>& head);
-    /// Gives the windows the newest pose of the head.
+    /// Passes the newest pose of the head to the windows.
     void follow_head();
     void show_first(qint64 tick);
 
     QWidget& beside_;
-    outlets::TrackedHead head_;  // the tracked head
+    outlets::TrackedHead head_;  // description of the tracked head
     std::unique_ptr<outlets::HeadTracker> tracker_;
     QTimer follow_;
     std::vector<std::unique_ptr<ParticipantWindow>> windows_;

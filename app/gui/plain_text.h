@@ -1,13 +1,13 @@
-// A field of plain text with several lines. Pasted or dropped data may be missing (an empty
-// clipboard, or one whose owner has ended, would end the program with Qt 6.4) or arbitrary:
-// characters that no text file may have are dropped.
+// A plain-text field with several lines. Pasted or dropped data may be missing (with Qt 6.4, an
+// empty clipboard, or one whose owner has exited, would crash the program) or arbitrary: characters
+// that are not allowed in text files are dropped.
 #pragma once
 
 #include <QPlainTextEdit>
 
 namespace dihaptic::gui {
 
-/// The text without control characters, except tabs and line feeds, and with no other line ends.
+/// The text with uniform line feeds, and without control characters except tabs and line feeds.
 QString clean_text(const QString& text);
 
 class PlainText : public QPlainTextEdit {

@@ -9,7 +9,7 @@
 namespace dihaptic::gui {
 namespace {
 
-/// The object's colour in the picture of the scene.
+/// The colour of the object, as it appears on the screen.
 QColor screen_colour(const Vec3& linear) {
     const auto srgb = [](double x) {  // IEC 61966-2-1
         return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
@@ -30,7 +30,8 @@ struct TermFinder {
     void changed(const auto&...) {}
 };
 
-/// The record's description of a member of the Frame, or of the items in one of its lists.
+/// The description in the recording of a member of the Frame, or of the items in one of the Frame's
+/// lists.
 template <class Item, class T>
 frame::Term term_of(T Item::*member) {
     const Item item;

@@ -1,4 +1,5 @@
-// The panel with live curves of grip and load force, of the force on each finger, and of heights.
+// The panel with live curves of the grip force and the load force, of the force on each finger, and
+// of heights.
 #pragma once
 
 #include "scene/scene.h"

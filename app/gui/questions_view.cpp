@@ -12,7 +12,7 @@ namespace {
 
 const QColor kSheet(20, 24, 30, 235);
 constexpr double kSheetCorner = 8;  // [pixels]
-/// With this many items or more, each item's line is next to its question, not below it.
+/// From this number of items on, each item's line is placed next to its question, not below it.
 constexpr size_t kMany = 9;
 
 }  // namespace
@@ -85,7 +85,7 @@ void QuestionsView::fill(const Asked& asked) {
     }
     if (is_form_) {
         done_ = new QPushButton(tr("Done (Enter)"), this);
-        done_->setFocusPolicy(Qt::NoFocus);  // keys are answers
+        done_->setFocusPolicy(Qt::NoFocus);  // keys must remain available for answers
         layout_->addWidget(done_, 1 + 2 * static_cast<int>(count_), 0, 1, 2, Qt::AlignRight);
         connect(done_, &QPushButton::clicked, this,
                 [this] { Q_EMIT clicked(task::Click::at(count_, 0)); });
@@ -99,11 +99,11 @@ void QuestionsView::place(const QSize& room) {
     fit();
 }
 
-/// A rating stands at the bottom of the scene, a form in place of the scene.
+/// Places the questions: a rating at the bottom of the scene, a form in place of the scene.
 void QuestionsView::fit() {
     const int width = room_.width(), height = room_.height();
     if (is_form_) {
-        // legible from a chair, if this leaves room for all items
+        // legible from a chair, if there is enough room for all items
         const int rows = static_cast<int>(count_) * (count_ >= kMany ? 2 : 4) + 6;
         const int letters = std::clamp(height / rows, 11, std::max(12, height / 30));
         setStyleSheet(QString("QLabel { color: white; font-size: %1px; } "

@@ -1,5 +1,5 @@
-// The questions of a task's state over the scene: the line of a rating that is answered by mouse,
-// or a form, with all its items on one page.
+// Shows the questions of the current task state over the scene: the line of a rating that is
+// answered by mouse, or a form with all its items on one page.
 #pragma once
 
 #include <QWidget>
@@ -18,14 +18,14 @@ QT_END_NAMESPACE
 
 namespace dihaptic::gui {
 
-/// The questions that are asked now.
+/// The questions that are currently asked.
 struct Asked {
     std::span<const task::AskSpec> items;
     QString title;                ///< title of the form
-    bool is_form = false;         ///< all items are shown, with a button that confirms them
-    size_t now = 0;               ///< the item whose answer is awaited; items.size(): none
-    std::vector<double> answers;  ///< answer to each item, in the unit of its name; NaN: none yet
-    QString typed;                ///< typed part of the awaited answer
+    bool is_form = false;         ///< whether all items are shown, with a button to confirm them
+    size_t now = 0;               ///< index of the item awaiting an answer; items.size() if none
+    std::vector<double> answers;  ///< answer to each item, in the unit of its name; NaN if missing
+    QString typed;                ///< the part of the awaited answer that has been typed
 };
 
 class QuestionsView : public QWidget {
@@ -34,10 +34,10 @@ class QuestionsView : public QWidget {
   public:
     explicit QuestionsView(QWidget* parent);
 
-    /// Shows the questions; nullopt: none.
+    /// Shows the questions; nullopt removes them.
     void ask(const std::optional<Asked>& asked);
     bool shows_form() const { return is_form_ && count_ > 0; }
-    /// Takes its place over a scene of this size.
+    /// Positions the questions over a scene of this size.
     void place(const QSize& room);
 
   Q_SIGNALS:
@@ -52,11 +52,11 @@ class QuestionsView : public QWidget {
         RatingView* line;
     };
     void fill(const Asked& asked);
-    /// The item's question, with its answer as far as it is known.
+    /// The text of an item: its question, and the answer if known.
     static QString text_of(const Asked& asked, size_t item);
     void fit();
 
-    const task::AskSpec* first_ = nullptr;  // the first of the questions shown
+    const task::AskSpec* first_ = nullptr;  // the first of the displayed questions
     size_t count_ = 0;
     bool is_form_ = false;
     QSize room_;

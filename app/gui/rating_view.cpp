@@ -12,10 +12,10 @@ const QColor kGround(20, 24, 30, 200);
 const QColor kInk(255, 255, 255);
 const QColor kPointer(255, 180, 60);
 constexpr double kCorner = 8;         // [pixels]
-constexpr double kBeyondLine = 0.08;  // share of the width, on each side of the line
+constexpr double kBeyondLine = 0.08;  // margin on each side of the line, as a share of the width
 constexpr double kMostTicks = 21;
 
-/// Texts below the line, by their positions as shares of the line.
+/// The texts below the line, each with its position as a share of the line's length.
 std::vector<std::pair<double, QString>> labels_of(const task::AskSpec& question) {
     std::vector<std::pair<double, QString>> out;
     const double range = question.most() - question.least();

@@ -1,4 +1,5 @@
-// The line of a question. If it is answered by mouse, a click on the line is the answer.
+// The rating line of a question. If the question is answered by mouse, a click on the line gives
+// the answer.
 #pragma once
 
 #include <QWidget>
@@ -14,13 +15,14 @@ class RatingView : public QWidget {
   public:
     explicit RatingView(QWidget* parent);
 
-    /// Sets the question; null: none. An unchanged pointer means an unchanged question.
+    /// Sets the question; null removes it. If the pointer is unchanged, so is the question.
     void set_question(const task::AskSpec* question);
-    /// Marks the answer, in the unit of its name; NaN: none. `awaited`: the line is highlighted.
+    /// Marks the answer, in the unit that its name gives; NaN if there is none. `awaited`: whether
+    /// to highlight the line.
     void set_answer(double answer, bool awaited);
 
   Q_SIGNALS:
-    /// `share`: of the line, from 0 to 1.
+    /// The line was clicked. `share`: position of the click along the line, from 0 to 1.
     void clicked(double share);
 
   protected:
@@ -34,7 +36,7 @@ class RatingView : public QWidget {
     double share_at(const QPointF& pixels) const;
 
     const task::AskSpec* question_ = nullptr;
-    double share_ = -1;  // position of the pointer; negative: not on the line
+    double share_ = -1;  // position of the pointer along the line; negative if not on it
     double answer_ = kUnmeasured;
     bool awaited_ = false;
 };

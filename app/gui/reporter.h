@@ -1,4 +1,4 @@
-// Writes the report of a session for the window, in a separate thread.
+// Writes the report of a session in a separate thread, for the window.
 #pragma once
 
 #include <QObject>
@@ -13,7 +13,7 @@ class Reporter : public QObject {
     using QObject::QObject;
     ~Reporter() override;
 
-    /// Writes the report of the session in a folder; one at a time.
+    /// Writes the report of the session in `folder`. Only one report is written at a time.
     void write(const QString& folder);
 
   Q_SIGNALS:

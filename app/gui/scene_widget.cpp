@@ -17,9 +17,9 @@ namespace dihaptic::gui {
 namespace {
 
 constexpr double kOrbit = 0.006;     // [rad/pixel]
-constexpr double kStill = 3;         // shorter movements of the pointer are ignored [px]
-constexpr double kCoarse = 2.0 / 3;  // detail of pictures for slow drawing
-constexpr size_t kPath = 300;        // length of the path [pictures]: five seconds
+constexpr double kStill = 3;         // a pointer movement up to this length counts as a click [px]
+constexpr double kCoarse = 2.0 / 3;  // detail of pictures when drawing is slow
+constexpr size_t kPath = 300;        // length of the path: five seconds [pictures]
 
 }  // namespace
 
@@ -66,7 +66,7 @@ void SceneWidget::set_scene(const scene::Scene& scene, const frame::Frame& frame
     workspaces_ = std::move(workspaces);
     turn_ = turn;
     path_.clear();
-    // a drag continues even if earlier changes of the text are shown only now
+    // a drag must not end because an earlier change of the text is shown only now
     const auto is_same = [&](size_t body) {
         return body < scene.bodies.size() && scene.bodies[body].name == scene_.bodies[body].name;
     };
@@ -128,7 +128,7 @@ void SceneWidget::set_staying(bool stays) {
 }
 
 void SceneWidget::move_hand(const QPointF& pixels, bool in_depth) {
-    // the hand moves in the devices' frame, so the camera is turned back by the workspaces' turn
+    // the hand moves in the devices' frame, so the workspaces' turn is undone for the camera
     view::Camera camera = camera_;
     camera.position = turn_.unturned(camera.position);
     camera.look_at = turn_.unturned(camera.look_at);
@@ -162,7 +162,7 @@ void SceneWidget::ask(const std::optional<Asked>& asked) {
     show_banner();
 }
 
-/// A form shows all its texts itself.
+/// Shows the banner, unless a form is shown, which contains all its texts itself.
 void SceneWidget::show_banner() {
     banner_->setVisible(!banner_->text().isEmpty() && !questions_->shows_form());
 }
@@ -215,7 +215,7 @@ void SceneWidget::place_labels() {
     const int width = room.width(), height = room.height();
     page_->setGeometry({{0, 0}, room});
     questions_->place(room);
-    // legible from a chair, on a screen of any size
+    // legible from a chair on a screen of any size
     banner_->setStyleSheet(
         QString("background: rgba(20, 24, 30, 200); color: white; padding: 12px 20px; "
                 "font-size: %1px; border-radius: 8px;")
@@ -282,7 +282,7 @@ void SceneWidget::draw_scene() {
     overlays.joints = layers_.joints;
     overlays.hand = layers_.hand;
     overlays.picked = picked_;
-    // a screen shows no depth, and a mouse renders no force
+    // a screen does not show depth and a mouse renders no force, so the lines are needed
     overlays.drop_lines = layers_.drop_lines || hand_ != nullptr;
     overlays.patch = patch_;
     if (layers_.path) overlays.path = path;
@@ -298,8 +298,8 @@ void SceneWidget::draw_scene() {
                       : view_->draw(frame_, camera_, across, up, overlays);
 }
 
-/// The display with the present position of its eyes. A head behind the screen, or nearly touching
-/// it, is left out: nothing could be drawn for it.
+/// The display with the current position of its eyes. A head position behind the screen, or nearly
+/// touching it, is ignored, because nothing could be drawn for it.
 display::Display SceneWidget::seen_display() {
     display::Display out = *display_;
     if (out.eyes.tracked && head_) {
@@ -315,8 +315,8 @@ display::Display SceneWidget::seen_display() {
     return out;
 }
 
-/// The glasses open for each eye in turn even if a picture is late. The next eye follows from the
-/// number of refreshes since the last picture.
+/// Determines which eye's picture is next. The glasses alternate between the eyes even if a picture
+/// is late, so the number of refreshes since the last picture is counted.
 void SceneWidget::take_turns() {
     if (!display_ || display_->stereo != display::Stereo::in_turn) return;
     const double periods =
@@ -327,7 +327,8 @@ void SceneWidget::take_turns() {
     update();
 }
 
-/// Draws page, question and texts into each eye's part of the picture, turned for a mirror.
+/// Draws the page, the question and the texts into each eye's part of the picture, mirrored if the
+/// display is seen in a mirror.
 void SceneWidget::draw_words() {
     const QList<QWidget*> children = words_->findChildren<QWidget*>(Qt::FindDirectChildrenOnly);
     if (std::all_of(children.begin(), children.end(), [](QWidget* w) { return w->isHidden(); }))
@@ -373,7 +374,7 @@ void SceneWidget::drag(const QPointF& way, Qt::KeyboardModifiers keys) {
     update();
 }
 
-/// A click that moved neither the camera, nor a body or a hand, picks the body under the pointer.
+/// Picks the body under the pointer, if the click moved neither the camera, a body nor the hand.
 void SceneWidget::mouseReleaseEvent(QMouseEvent* event) {
     if (event->button() != Qt::LeftButton) return;
     const auto drag = std::exchange(drag_, std::nullopt);
@@ -396,7 +397,7 @@ void SceneWidget::zoom(double notches) {
 void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
     const QPointF way = event->position() - pointer_;
     pointer_ = event->position();
-    if (display_) return;  // eyes do not move by mouse
+    if (display_) return;  // the mouse must not move the camera, whose place is at the eyes
     if (drag_) return drag(way, event->modifiers());
     const bool shift = event->modifiers().testFlag(Qt::ShiftModifier);
     const bool left = event->buttons().testFlag(Qt::LeftButton);
@@ -405,7 +406,7 @@ void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
     if (pan || orbit) {
         look(way, pan);
     } else if (hand_ != nullptr) {
-        setFocus();  // keys belong to the hand while the pointer is here
+        setFocus();  // keys control the hand while the pointer is over the scene
         if (stays_) return;
         if (!left) return move_hand(way, shift);
         hand_->turn(way);
@@ -444,7 +445,7 @@ void SceneWidget::set_key(const QKeyEvent& event, bool down) {
 
 bool SceneWidget::look_by_key(const QKeyEvent& event) {
     if (!event.modifiers().testFlag(Qt::ControlModifier) || display_) return false;
-    constexpr double kWay = 30;  // mouse movement that a key replaces [px]
+    constexpr double kWay = 30;  // mouse movement that a key press replaces [px]
     QPointF way;
     if (event.key() == Qt::Key_Left) way.rx() = -kWay;
     if (event.key() == Qt::Key_Right) way.rx() = kWay;
@@ -467,7 +468,7 @@ void SceneWidget::keyPressEvent(QKeyEvent* event) {
     set_key(*event, true);
     if (hand_ != nullptr && event->key() == Qt::Key_H && !event->isAutoRepeat())
         set_staying(!stays_);
-    QOpenGLWidget::keyPressEvent(event);  // passed on, since a task may wait for the key
+    QOpenGLWidget::keyPressEvent(event);  // passed on, because a task may wait for the key
 }
 
 void SceneWidget::keyReleaseEvent(QKeyEvent* event) {

@@ -1,5 +1,5 @@
-// The widget that shows the present state of the scene. The mouse moves its camera, or the
-// simulated hand.
+// The widget that shows the current state of the scene. The mouse moves the camera or the simulated
+// hand.
 #pragma once
 
 #include <QElapsedTimer>
@@ -26,21 +26,23 @@ class SceneWidget : public QOpenGLWidget {
     explicit SceneWidget(QWidget* parent = nullptr);
     ~SceneWidget() override;
 
-    /// Sets the scene that frames belong to from now on, the first frame, the devices' workspaces,
-    /// and how workspaces turn. The camera keeps its pose if the scene has the same cameras as the
-    /// previous one.
+    /// Sets the scene to which all later frames belong, its first frame, the devices' workspaces,
+    /// and the turn of the workspaces. The camera keeps its pose if the new scene has the same
+    /// cameras as the previous one.
     void set_scene(const scene::Scene& scene, const frame::Frame& frame,
                    std::vector<view::Workspace> workspaces = {},
                    const servo::WorkspaceTurn& turn = {});
-    /// Sets the newest frame, which is drawn with the screen's next picture.
+    /// Sets the newest frame, which will be drawn in the screen's next picture.
     void show_frame(const frame::Frame& frame);
-    /// The mouse moves this hand or, if null, the camera. `squeezes`: whether the wheel squeezes.
+    /// Sets the hand that the mouse moves; if null, the mouse moves the camera. `squeezes`: whether
+    /// the wheel squeezes the hand.
     void set_hand(MouseHand* hand, bool squeezes);
-    /// The mouse drags this body, which is marked by a box, and keys move it; nullopt: none.
+    /// Sets the body that is marked by a box and can be moved by mouse and keys; nullopt if there
+    /// is none.
     void set_picked(std::optional<size_t> body);
-    /// Shows the picked body displaced, until the next frame or scene.
+    /// Shows the picked body displaced by `way`, until the next frame or scene.
     void move_picked(const BodyWay& way);
-    /// The squeeze commanded by the keys that are held down.
+    /// The squeeze that the keys currently held down command.
     MouseHand::Squeeze keys() const { return keys_; }
 
     const std::vector<view::Camera>& cameras() const { return cameras_; }
@@ -48,14 +50,16 @@ class SceneWidget : public QOpenGLWidget {
     void set_camera(const view::Camera& camera);
     const view::Camera& camera() const { return camera_; }
     void reset_camera();
-    /// Draws the scene as the person sees it on a display, in place of the camera's view; nullopt:
+    /// Draws the scene as the person sees it on a display, instead of from the camera; nullopt for
     /// the camera's view.
     void set_display(const std::optional<display::Display>& display);
-    /// The head from whose eyes the scene is drawn, if the display's eyes are tracked.
+    /// Sets the pose of the head from whose eyes the scene is drawn, if the display's eyes are
+    /// tracked.
     void set_head(const outlets::HeadPose& head);
-    /// The head for which the last picture was drawn; nullopt: resting eyes.
+    /// The pose of the head for which the last picture was drawn; nullopt if the eyes were at rest.
     const std::optional<outlets::HeadPose>& shown_to() const { return shown_to_; }
-    /// Selects the items drawn besides the scene; `path` is the object's path in the last seconds.
+    /// Selects what is drawn in addition to the scene. `path`: the object's path during the last
+    /// seconds.
     struct Layers {
         bool handles = false;
         bool forces = false;
@@ -69,38 +73,40 @@ class SceneWidget : public QOpenGLWidget {
     };
     void set_layers(const Layers& layers);
     void set_patch(const std::optional<view::PatchLook>& patch);
-    /// Whether pictures are drawn with all pixels, or with two thirds of them in each direction.
-    /// Initially all are drawn if there is a graphics card.
+    /// Sets whether pictures are drawn at full resolution, or at two thirds of it in each
+    /// direction. The default is full resolution if there is a graphics card.
     void set_fine(bool fine);
     const Layers& layers() const { return layers_; }
-    /// The frame shown in the last picture.
+    /// The frame that the last picture showed.
     const view::Shown& shown() const { return shown_; }
-    /// Sets the large text over the picture; empty: none.
+    /// Sets the large text over the picture; an empty text removes it.
     void set_banner(const QString& text);
     void set_help(const QString& text);
-    /// Sets the page in place of the scene (page_view.h); empty: none.
+    /// Sets the page shown instead of the scene (page_view.h); if both arguments are empty, the
+    /// scene is shown.
     void set_page(const QString& text, const QString& picture);
-    /// Shows the questions that a task asks now; nullopt: none.
+    /// Shows the questions that a task currently asks; nullopt if there are none.
     void ask(const std::optional<Asked>& asked);
     const QuestionsView& questions() const { return *questions_; }
 
     QSize sizeHint() const override { return {900, 640}; }
 
   Q_SIGNALS:
-    /// The picture of a tick was handed to the screen; sent once for each tick.
+    /// The picture of a tick was passed to the screen. Emitted once for each tick.
     void presented(qint64 tick);
-    /// The hand has a new goal.
+    /// The hand has a new target position.
     void hand_moved();
     void camera_moved();
     /// A body of the scene was clicked.
     void picked(size_t body);
-    /// The picked body was dragged, and is shown at its new position.
+    /// The picked body was dragged and is shown at its new position.
     void dragged(size_t body, const dihaptic::gui::BodyWay& way);
-    /// A key was pressed that moves the picked body by a step [m].
+    /// A key that moves the picked body by a step was pressed [m].
     void stepped(const dihaptic::Vec3& step);
-    /// OpenGL draws in software, and therefore in less detail: a message for the user. Sent once.
+    /// OpenGL draws in software, and therefore in less detail. `what`: a message for the user.
+    /// Emitted once.
     void draws_in_software(const QString& what);
-    /// OpenGL cannot draw: the reason and the remedy.
+    /// OpenGL cannot draw. `why`: the reason and the remedy.
     void failed(const QString& why);
 
   protected:
@@ -118,13 +124,14 @@ class SceneWidget : public QOpenGLWidget {
   private:
     void release();
     void set_key(const QKeyEvent& event, bool down);
-    /// Moves the camera by a key, as the mouse does; false if the key does not move it.
+    /// Moves the camera by a key, as the mouse would. Returns false if the key does not move the
+    /// camera.
     bool look_by_key(const QKeyEvent& event);
     void set_staying(bool stays);
     void move_hand(const QPointF& pixels, bool in_depth);
     view::Ray ray_to(const QPointF& pointer) const;
     void drag(const QPointF& way, Qt::KeyboardModifiers keys);
-    /// The camera follows a mouse movement of this many pixels.
+    /// Moves the camera by a mouse movement of `way` pixels.
     void look(const QPointF& way, bool pan);
     void zoom(double notches);
     void show_banner();
@@ -132,7 +139,8 @@ class SceneWidget : public QOpenGLWidget {
     void make_view();
     void draw_scene();
     display::Display seen_display();
-    /// Call after a picture has appeared on the screen: the next one is for the other eye.
+    /// To be called when a picture has appeared on the screen: the next picture is for the other
+    /// eye.
     void take_turns();
     void draw_words();
 
@@ -146,26 +154,26 @@ class SceneWidget : public QOpenGLWidget {
     bool right_eye_ =
         false;  // whether the right eye's picture is next, on a display for both eyes in turn
     QElapsedTimer since_swap_;
-    /// Holds page, question and texts if they are drawn into the picture, for each eye or for a
-    /// mirror; null: they lie over the scene.
+    /// Holds the page, the question and the texts if they are drawn into the picture, for each eye
+    /// or for a mirror; null if they overlay the scene.
     std::unique_ptr<QWidget> words_;
     std::optional<size_t> picked_;
-    std::optional<BodyDrag> drag_;  // drag of the picked body, while the button is down
-    Pose X_WB_dragged_;             // pose of that body at the start of the drag
+    std::optional<BodyDrag> drag_;  // drag of the picked body while the mouse button is down
+    Pose X_WB_dragged_;             // pose of the dragged body at the start of the drag
     Layers layers_;
     std::optional<view::PatchLook> patch_;
-    std::optional<bool> fine_;  // if unset, depends on the renderer
+    std::optional<bool> fine_;  // if unset, the renderer decides
     std::vector<view::Workspace> workspaces_;
     servo::WorkspaceTurn turn_;
     std::deque<Vec3> path_;
     view::Shown shown_;
-    int64_t presented_ = -1;  // last tick for which presented() was sent
+    int64_t presented_ = -1;  // last tick for which presented() was emitted
     MouseHand* hand_ = nullptr;
-    bool squeezes_ = false;  // the wheel squeezes; otherwise it moves the hand in depth
-    bool stays_ = false;     // the hand stays while the pointer moves
+    bool squeezes_ = false;  // whether the wheel squeezes the hand instead of moving it in depth
+    bool stays_ = false;     // whether the hand stays in place while the pointer moves
     MouseHand::Squeeze keys_ = MouseHand::Squeeze::none;
     QPointF pointer_;
-    QPointF pressed_;  // position where a button was pressed
+    QPointF pressed_;  // position where a mouse button was pressed
     PageView* page_;
     QuestionsView* questions_;
     QLabel* banner_;

@@ -10,7 +10,7 @@
 namespace dihaptic::gui {
 namespace {
 
-/// The texts that the task shows, one per line.
+/// The texts that the task currently shows, one per line.
 QString texts_of(const session::Plan& plan, const frame::Frame& frame) {
     QStringList out;
     if (plan.task) {
@@ -20,7 +20,8 @@ QString texts_of(const session::Plan& plan, const frame::Frame& frame) {
     return out.join("\n");
 }
 
-/// A person's hand requires real time, and so does a script in its place.
+/// The clock of a session. A hand moved by a person, or by a script in the person's place, requires
+/// real time.
 session::Clock clock_of(const session::Plan& plan, double pace) {
     const bool at_own_pace = plan.moved_by.mover == recording::Mover::simulated_person || pace != 1;
     return at_own_pace && !plan.moved_by.person() && !rig::is_real(plan.rig)
@@ -34,7 +35,7 @@ SessionControl::SessionControl(QString out, double sync, std::atomic<bool>& stop
     : out_(std::move(out)), sync_(sync), runner_(stop) {
     connect(&loader_, &Loader::opened, this, &SessionControl::take);
     connect(&loader_, &Loader::refused, this, &SessionControl::refuse);
-    // emitted by the loader's thread, so it arrives later, when loading may be over
+    // the signal comes from the loader's thread, so it may arrive after loading has ended
     connect(&loader_, &Loader::waits, this, [this](const QString& what, int seconds, int most) {
         if (loader_.loading())
             Q_EMIT progressed({"", most > 0 ? static_cast<double>(seconds) / most : 0,
@@ -42,7 +43,7 @@ SessionControl::SessionControl(QString out, double sync, std::atomic<bool>& stop
     });
     reload_.setSingleShot(true);
     connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] { reload_.start(300); });
-    // a missing file has returned
+    // a missing file may have returned
     connect(&watcher_, &QFileSystemWatcher::directoryChanged, this, [this] {
         if (!watcher_.files().contains(file_) && QFileInfo::exists(file_)) reload_.start(300);
     });
@@ -108,8 +109,8 @@ SessionControl::Words SessionControl::words() const {
     return {"", said_, QString::fromStdString(page.spec.picture)};
 }
 
-/// What has been typed so far: the number that ends the line showing the scale in words. `scale` is
-/// the message of that line.
+/// The part of the answer that has been typed: the number at the end of the line that shows the
+/// scale in words. `scale`: index of that line's message.
 QString SessionControl::typed(const frame::TaskFrame& task, const task::TaskPlan& plan, int scale) {
     const std::vector<std::string> texts = frame::shown_texts(task, plan.messages);
     for (size_t i = 0; i < task.lines.size(); ++i) {
@@ -136,7 +137,7 @@ std::optional<Asked> SessionControl::asked() const {
     if (out.is_form)
         out.title =
             QString::fromStdString(state.message.empty() ? state.form->title : state.message);
-    // the lines below the message state which question is asked now
+    // the lines below the message say which question is being asked
     const auto& items = plan.states[phase].questions.items;
     const auto is_shown = [&](const task::TaskPlan::Questions::Item& item) {
         return std::ranges::any_of(frame.task.lines, [&](const frame::LineFrame& line) {
@@ -162,7 +163,7 @@ void SessionControl::open(const QString& file) {
 }
 
 void SessionControl::watch() {
-    // when an editor replaces the file, it is no longer watched
+    // when an editor replaces the file, it is no longer being watched
     if (!watcher_.files().contains(file_)) watcher_.addPath(file_);
 }
 
@@ -174,7 +175,7 @@ void SessionControl::read(const session::Request& request, const std::optional<s
 }
 
 void SessionControl::take(const Opened& opened) {
-    auto devices = loader_.take_devices();  // they are closed again, unless a session starts now
+    auto devices = loader_.take_devices();  // closed on return, unless a session starts now
     if (runner_.running()) return;
     plan_ = opened.plan;
     frame_ = opened.frame;
@@ -206,7 +207,7 @@ void SessionControl::refuse(const QStringList& problems) {
     if (std::exchange(start_when_opened_, false) && text_is_wrong_) refuse_to_start();
     starts_.reset();
     Q_EMIT judged(problems);
-    if (!edited_) {  // the user sees mistakes at their place while typing
+    if (!edited_) {  // while typing, the user sees errors marked in the text
         complaint_ = problems.front();
         for (const QString& problem : problems) log(problem, true);
         if (plan_) log(tr("The open file stays unchanged."));
@@ -248,7 +249,7 @@ void SessionControl::run(const Start& start, std::unique_ptr<devices::DeviceGrou
     options.participant = start.participant;
     options.in_study = start.in_study;
     options.clock = clock_of(*plan_, start.pace);
-    // the display is the session's, not the file's
+    // the scene shown is the resumed session's, not the file's
     changed_ = changed_ || !plan_->resumes.empty();
     Q_EMIT prepared(*plan_, options);
     runner_.start(*plan_, options, start.pace, std::move(devices),

@@ -1,5 +1,5 @@
-// Controls sessions, without a widget: reads the open file, starts a session of it, and follows the
-// session to its end. The window and its panels subscribe to the signals.
+// Controls sessions without using widgets: reads the open file, starts a session from it, and
+// follows the session to its end. The window and its panels subscribe to the signals.
 #pragma once
 
 #include <QFileSystemWatcher>
@@ -20,26 +20,26 @@ class SessionControl : public QObject {
 
   public:
     enum class State {
-        no_file,   ///< no file without errors has been read
+        no_file,   ///< no error-free file has been read
         opening,   ///< a file is being read
         checked,   ///< the file has no errors
-        starting,  ///< the file is read again, and the devices are opened, for a session
+        starting,  ///< the file is read again and the devices are opened, for a session
         running,
         paused,
-        finishing,  ///< the ticks are over, and files are being written
+        finishing,  ///< the ticks have ended, and files are being written
     };
-    /// What a state allows. `prepare`: the checks and questions before a session. `move`: moving
-    /// the hand by mouse.
+    /// The actions that a state may allow. `prepare`: the checks and questions before a session.
+    /// `move`: moving the hand by mouse.
     enum class Act { open, start, prepare, calibrate, pause, stop, skip, step, move, force_off };
-    /// What a session needs besides its plan.
+    /// What is needed to start a session, in addition to its plan.
     struct Start {
         recording::Participant participant;
-        bool by_person = false;  ///< a simulated person moves the hand
+        bool by_person = false;  ///< whether a simulated person moves the hand
         double pace = 1;         ///< SessionRunner's
         std::optional<recording::InStudy> in_study = std::nullopt;  ///< place of a resumed session
     };
 
-    /// `out`, `sync` and `stop`: OperatorWindow's.
+    /// The parameters have the same meaning as in OperatorWindow.
     SessionControl(QString out, double sync, std::atomic<bool>& stop);
 
     State state() const;
@@ -47,89 +47,93 @@ class SessionControl : public QObject {
     const QString& out() const { return out_; }
     void set_out(const QString& folder);
     const QString& file() const { return file_; }
-    /// The plan of the last version of the file without errors; nullopt: there has been none.
+    /// The plan from the last error-free version of the file; nullopt if there has been none.
     const std::optional<session::Plan>& plan() const { return plan_; }
     /// The plan's first frame.
     const frame::Frame& first_frame() const { return frame_; }
     SessionRunner& runner() { return runner_; }
     const SessionRunner& runner() const { return runner_; }
-    /// Whether the running session or, if none runs, the file has trials.
+    /// Whether the running session has trials or, if none is running, whether the file does.
     bool has_trials() const;
     bool loading() const { return loader_.loading(); }
     /// Whether the last session was ended by `stop`.
     bool cut() const { return cut_; }
-    /// Whether the file has changed while it could not be read again.
+    /// Whether the file has changed since it was last read, but could not be read again.
     bool stale() const { return changed_; }
-    /// Folder of this file's last session; empty: none.
+    /// Folder of the last session recorded from this file; empty if there is none.
     const QString& recorded() const { return recorded_; }
-    /// Fault of the file, or reason for the session's pause; empty: none.
+    /// A fault of the file, or the reason why the session is paused; empty if there is none.
     const QString& complaint() const { return complaint_; }
-    /// What the running task shows.
+    /// The texts that the running task shows.
     struct Words {
         QString message;  ///< texts over the scene
-        QString page;     ///< text of the page in place of the scene
-        QString picture;  ///< picture of that page
+        QString page;     ///< text of the page shown instead of the scene
+        QString picture;  ///< picture on that page
     };
     Words words() const;
-    /// The form that is filled in now, or the rating that a click can answer; nullopt: none.
+    /// The form that is being filled in, or the rating that can be answered with a click; nullopt
+    /// if there is none.
     std::optional<Asked> asked() const;
 
-    /// Another file is open from now on. It is watched; read() reads it.
+    /// Makes `file` the open file, and watches it. The file is read by read().
     void open(const QString& file);
-    /// Watches the file again, if another program has replaced it.
+    /// Watches the file again if another program has replaced it.
     void watch();
-    /// Reads the file, once no session runs or starts. `text`: replaces its content.
+    /// Reads the file as soon as no session is running or starting. `text`: used instead of the
+    /// file's contents, if given.
     void read(const session::Request& request, const std::optional<std::string>& text);
-    /// Whether the file's text has unsaved changes.
+    /// Sets whether the file's text has unsaved changes.
     void set_edited(bool edited) { edited_ = edited; }
     /// Whether the checks before a session may begin now. If the file is still being read,
-    /// start_due() follows when it has been.
+    /// start_due() will be emitted afterwards.
     bool want_start();
-    /// Keeps a session that is about to start from starting.
+    /// Cancels the session that is about to start.
     void drop_start() { starts_.reset(); }
-    /// Drops the session about to start, and also a start that waits for the file.
+    /// Cancels the session that is about to start, including a start that is still waiting for the
+    /// file to be read.
     void forget_start();
-    /// Reads the file again, so that the session uses its present content, and starts. `resumes`:
-    /// folder of the session to continue, whose frozen files are read instead; "": none. To be
-    /// called only after the checks, which Act::prepare allows.
+    /// Starts a session, after reading the file again so that the session uses its current
+    /// contents. `resumes`: folder of the session to be continued, whose frozen files are read
+    /// instead; "" for a new session. To be called only after the checks for which Act::prepare
+    /// stands.
     void begin(session::Request request, const Start& start, const std::string& resumes);
-    /// Ends the session, or the reading of a file.
+    /// Ends the session, or stops reading the file.
     void stop();
     void skip();
     void pause(bool paused);
-    /// Pauses the session, if one is running. `why`: the reason, if the operator must be told.
+    /// Pauses the session, if one is running. `why`: the reason, if the operator must be informed.
     void take_force_away(const QString& why = "");
     void set_pace(double pace);
     void turn_knobs(const frame::Knobs& knobs, const QString& what);
-    /// Passes on a key that a task may wait for.
+    /// Passes on a key press for which a task may be waiting.
     void press(char key);
     void click(const task::Click& click);
-    /// Passes on what the session has produced since the last call; to be called for each picture.
+    /// Reports what the session has produced since the last call. To be called for each picture.
     void refresh();
 
   Q_SIGNALS:
-    /// The state, or a text, may have changed.
+    /// The state or one of the texts may have changed.
     void changed();
     void logged(const QString& text, bool problem);
     /// The file should be read again.
     void file_changed();
-    /// The file has no errors.
+    /// The file was read without errors.
     void opened(const dihaptic::gui::Opened& opened);
-    /// Errors or warnings of the file that was read.
+    /// The errors or warnings of the file that was read.
     void judged(const QStringList& problems);
     void start_due();
-    /// A session is about to start; options may be added.
+    /// A session is about to start; the receiver may add options.
     void prepared(const dihaptic::session::Plan& plan, dihaptic::session::RunOptions& options);
     void started(const dihaptic::session::Plan& plan);
     void sampled(const dihaptic::session::CurveSample& sample);
     void trial_ended(const dihaptic::session::TrialEnd& end);
-    /// Measures of the session's attempts, as in trials.csv.
+    /// The measures of the session's attempts, as in trials.csv.
     void measured(const dihaptic::Table& trials);
     void framed(const dihaptic::frame::Frame& frame);
     void progressed(const dihaptic::gui::SessionProgress& now);
-    /// `share`: written share of the session's files.
+    /// `share`: share of the session's files that has been written.
     void finishing_progressed(double share);
-    /// No force acts; `why` is the reason.
+    /// No force acts. `why`: the reason.
     void rested(const QString& why);
     void ended();
 
@@ -150,13 +154,13 @@ class SessionControl : public QObject {
     TrialFigures figures_;
     QString file_;
     QFileSystemWatcher watcher_;
-    QTimer reload_;  ///< delays reading a changed file: editors write it in several steps
+    QTimer reload_;  ///< delays reading a changed file, which editors write in steps
     std::optional<session::Plan> plan_;
     frame::Frame frame_;
-    QString said_;   ///< the task's texts that are shown
-    int page_ = -1;  ///< index of the task's page that is shown; -1: none
+    QString said_;   ///< the task's texts that are currently shown
+    int page_ = -1;  ///< index of the task's page that is currently shown; -1 if there is none
     bool start_when_opened_ = false;
-    std::optional<Start> starts_;  ///< the session that starts when the file has been read
+    std::optional<Start> starts_;  ///< the session to start once the file has been read
     bool edited_ = false;
     bool text_is_wrong_ = false;  ///< whether the unsaved text has errors
     bool changed_ = false;

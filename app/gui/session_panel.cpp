@@ -36,7 +36,7 @@ SessionPanel::SessionPanel(SessionControl& control)
     start_->setToolTip("F5");
     pause_->setToolTip(tr("F6, or Escape: time stands still, and no force acts"));
     skip_->setToolTip(tr("F8: this trial ends and is recorded as skipped; the next one starts"));
-    // of fixed height and as wide as possible, so that nothing jumps under the pointer
+    // with a fixed height and as wide as possible, so that nothing moves under the pointer
     trial_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     trial_->hide();
     stop_->setToolTip(tr("F7: ends the session properly"));
@@ -89,7 +89,7 @@ void SessionPanel::connect_control() {
     connect(&control_, &SessionControl::ended, this, [this] { set_trial(""); });
 }
 
-/// Sets up the choices of what moves simulated hands, and of the speed of their time.
+/// Sets up the choice of what moves the simulated hands, and of the speed of simulated time.
 void SessionPanel::set_up_hand() {
     hand_->addItems({tr("the mouse"), tr("the file's script"), tr("a simulated person")});
     hand_->setToolTip(tr(
@@ -138,8 +138,8 @@ void SessionPanel::show_state() {
     for (QWidget* choice : std::initializer_list<QWidget*>{open_, rig_, participant_, hand_})
         choice->setEnabled(idle);
     if (idle) {
-        // not Qt's busy indicator: its Fusion style keeps animating, 60 times a second, after the
-        // bar has an end again
+        // Qt's busy indicator is not used: its Fusion style keeps animating, 60 times a second,
+        // even after the bar has an end again
         progress_->setRange(0, 1);
         progress_->setValue(0);
         progress_->setFormat(opening ? tr("opening") : checked ? tr("ready") : "");

@@ -1,4 +1,5 @@
-// The panel that selects, starts, pauses and stops a session, and shows its progress.
+// The panel in which a session is set up, started, paused and stopped, and which shows its
+// progress.
 #pragma once
 
 #include <QComboBox>
@@ -11,7 +12,7 @@
 
 namespace dihaptic::gui {
 
-/// Limits a field to characters that may be part of a folder's name.
+/// Restricts a text field to characters that are allowed in folder names.
 void set_up_identifier(QLineEdit& field);
 
 class SessionPanel : public QWidget {
@@ -20,19 +21,20 @@ class SessionPanel : public QWidget {
   public:
     explicit SessionPanel(SessionControl& control);
 
-    /// The available rig files; the first choice is the rig named in the file.
+    /// Sets the available rig files; the first choice is always the rig named in the open file.
     void set_rigs(const QStringList& files);
     QString rig() const { return rig_->currentData().toString(); }
     QString participant() const { return participant_->text().trimmed(); }
     void set_participant(const QString& id) { participant_->setText(id); }
     enum class Hand { mouse, script, person };
     Hand hand() const { return static_cast<Hand>(hand_->currentIndex()); }
-    /// Session time over wall time; 0: as fast as the machine allows. With the mouse it is 1.
+    /// Ratio of session time to wall time; 0 for as fast as the machine allows. It is 1 if the
+    /// mouse moves the hand.
     double pace() const;
 
   Q_SIGNALS:
     void open_requested();
-    /// Another rig or another hand was chosen.
+    /// A different rig or hand was chosen.
     void choice_changed();
     void start_requested();
 
@@ -41,7 +43,7 @@ class SessionPanel : public QWidget {
     void connect_control();
     void show_state();
     void set_progress(double share, const QString& text);
-    /// `text`: the running trial; empty: none.
+    /// Shows the running trial; an empty `text` if there is none.
     void set_trial(const QString& text);
 
     SessionControl& control_;

@@ -37,9 +37,9 @@ namespace dihaptic::gui {
 namespace {
 
 constexpr int kSliderSteps = 100000;
-constexpr int kPicture = 16;  // time between pictures during playback [ms]
+constexpr int kPicture = 16;  // time between pictures while playing [ms]
 
-/// The rows of a session's table; none if it has no table with that name.
+/// The rows of a table of the session; empty if it has no table with that name.
 template <class Row>
 std::vector<Row> rows_of(const recording::SessionFolder& folder, const char* name) {
     const std::string file = folder.file(name);
@@ -49,14 +49,14 @@ std::vector<Row> rows_of(const recording::SessionFolder& folder, const char* nam
     return {table.begin(), table.end()};
 }
 
-/// The non-empty words, one after the other.
+/// Joins the words that are not empty.
 QString joined(std::initializer_list<QString> words) {
     QStringList out(words);
     out.removeAll(QString());
     return out.join(' ');
 }
 
-/// E.g. "slip 0.12 mm"; "" if not measured. `length`: [m].
+/// A length as text, e.g. "slip 0.12 mm"; "" if it was not measured. `length`: [m].
 QString in_mm(const char* what, double length) {
     if (std::isnan(length)) return {};
     return QString("%1 %2 mm").arg(what).arg(1000 * length, 0, 'f', 2);
@@ -203,7 +203,7 @@ void SessionPlayer::make_menus() {
     page(tr("&Tables of a session"), "tables");
 }
 
-/// Lists the events in the session's tables.
+/// Lists the events found in the session's tables.
 void SessionPlayer::make_moments() {
     list_ = new QTreeWidget;
     list_->setAccessibleName(tr("Moments"));
@@ -220,7 +220,7 @@ void SessionPlayer::make_moments() {
     std::sort(starts_.begin(), starts_.end(),
               [](const Start& a, const Start& b) { return a.time < b.time; });
     for (const rows::EventRow& event : rows_of<rows::EventRow>(folder_, "events.csv")) {
-        if (event.name != "trial")  // trials are already listed
+        if (event.name != "trial")  // trials have already been listed
             list_moment(event.time, joined({text(event.name), text(event.detail)}));
     }
     for (const rows::EpisodeRow& episode : rows_of<rows::EpisodeRow>(folder_, "episodes.csv")) {
@@ -229,7 +229,7 @@ void SessionPlayer::make_moments() {
                             in_mm("rise", episode.rise)}));
     }
     for (const rows::LiftRow& lift : rows_of<rows::LiftRow>(folder_, "lifts.csv")) {
-        // touch, lift-off, replacement and release are among the events
+        // the events already include touch, lift-off, replacement and release
         list_moment(lift.load_onset, tr("load onset, trial %1").arg(lift.trial));
         list_moment(lift.first_slip, tr("first slip, trial %1").arg(lift.trial));
     }
@@ -361,7 +361,7 @@ void SessionPlayer::go_on() {
 void SessionPlayer::step(int frames) {
     play(false);
     const double tick = log_.head().tick;
-    // measured from the displayed tick, not from the moment within it
+    // relative to the displayed tick, not to a time within the tick
     const double shown = seconds(log_.at(time_).time);
     go_to(shown + (frames + 0.01) * tick);
 }
@@ -447,10 +447,10 @@ void open_sessions(const QStringList& folders) {
         players.push_back(std::make_unique<SessionPlayer>(folder.toStdString()));
     const QRect room = QGuiApplication::primaryScreen()->availableGeometry();
     for (size_t i = 0; i < players.size(); ++i) {
-        SessionPlayer* const player = players[i].release();  // it deletes itself when it is closed
+        SessionPlayer* const player = players[i].release();  // deletes itself when closed
         if (folders.size() == 2) {
             player->set_together(true);
-            // half a display has no room for the list of moments; View shows it again
+            // half a screen has no room for the list of moments; the View menu can show it again
             for (QDockWidget* dock : player->findChildren<QDockWidget*>()) dock->hide();
             player->resize(room.width() / 2, room.height());
             player->move(i == 0 ? room.left() : room.right() + 1 - player->width(), room.top());

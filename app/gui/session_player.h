@@ -1,5 +1,5 @@
-// A window for a recorded session: the scene at any moment, curves of recorded quantities, and a
-// list of events. Two windows may be linked, to compare sessions.
+// A window for a recorded session: the scene at any time, curves of recorded quantities, and a list
+// of events. Two windows can be linked to compare sessions.
 #pragma once
 
 #include <QElapsedTimer>
@@ -30,25 +30,25 @@ class SessionPlayer : public QMainWindow {
     Q_OBJECT
 
   public:
-    /// `folder`: the session's folder. Throws Error when it cannot be read.
+    /// `folder`: the folder of the session. Throws Error when the session cannot be read.
     explicit SessionPlayer(const std::string& folder, QWidget* parent = nullptr);
     ~SessionPlayer() override;
 
-    /// The displayed moment [s].
+    /// The displayed time [s].
     double time() const { return time_; }
     void go_to(double time);
 
-    /// A moment relative to a trial: the trial's number (0 before the first trial, or without
-    /// trials) and the time since it began [s].
+    /// A time relative to a trial: the trial's number (0 before the first trial, or without trials)
+    /// and the time since the trial began [s].
     struct Moment {
         int trial = 0;
         double since = 0;
     };
     Moment moment() const;
-    /// Shows that moment of the trial's last attempt, at most its end, if this window is linked
-    /// with others and has such a trial.
+    /// If this window is linked with others and its session has the trial, shows the given moment
+    /// of the trial's last attempt, but no later than the attempt's end.
     void follow(const Moment& moment);
-    /// Whether this window and others show the same moment.
+    /// Sets whether this window and others show the same moment.
     void set_together(bool together);
 
   protected:
@@ -58,11 +58,12 @@ class SessionPlayer : public QMainWindow {
     void make_menus();
     QWidget* make_controls();
     void make_moments();
-    /// Lists an event at a time [s], unless the time is unmeasured. If the same limit was reached
-    /// before, it is only counted.
+    /// Adds an event at the given time [s] to the list, unless the time is NaN because it was not
+    /// measured. A limit that was reached before is only counted.
     void list_moment(double seconds, const QString& what);
     void read_curves();
-    /// Shows the curves that the user typed; false, with a message, if one is not an expression.
+    /// Shows the curves that the user has typed. If one of them is not a valid expression, shows a
+    /// message and returns false.
     bool choose_curves();
     void play(bool on);
     void go_on();
@@ -82,7 +83,7 @@ class SessionPlayer : public QMainWindow {
         double time;  // [s]
         int trial;
     };
-    std::vector<Start> starts_;  // starts of attempts at trials
+    std::vector<Start> starts_;  // start of each trial attempt
     QAction* together_ = nullptr;
     bool following_ = false;
     std::vector<task::RecordedValue> values_;
@@ -97,11 +98,11 @@ class SessionPlayer : public QMainWindow {
     QLabel* where_ = nullptr;
     QLineEdit* curves_ = nullptr;
     QTreeWidget* list_ = nullptr;
-    QTimer read_;  // delays reading curves after zooming
+    QTimer read_;  // delays the reading of curves after zooming
 };
 
-/// Opens a window for each of these sessions. Two windows stand side by side and are linked. Throws
-/// Error when one cannot be read.
+/// Opens a window for each of these sessions. Two windows are placed side by side and linked.
+/// Throws Error when a session cannot be read.
 void open_sessions(const QStringList& folders);
 
 }  // namespace dihaptic::gui

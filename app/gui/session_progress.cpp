@@ -34,7 +34,7 @@ QString describe_trial(const task::TaskPlan& plan, const frame::Frame& frame) {
 SessionProgress progress_of(const session::Plan& plan, const frame::Frame& frame, double done) {
     const double now = seconds(frame.time);
     if (plan.task) {
-        // assumes that the remaining trials take as long as the earlier ones
+        // assumes that the remaining trials will take as long as the completed ones
         const QString left =
             done > 0 ? QObject::tr("about %1 left").arg(duration(now * (1 - done) / done))
                      : duration(now);

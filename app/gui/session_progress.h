@@ -1,4 +1,4 @@
-// The progress of a session, in words.
+// Describes the progress of a session in words.
 #pragma once
 
 #include <QString>
@@ -9,12 +9,12 @@
 namespace dihaptic::gui {
 
 struct SessionProgress {
-    QString trial;     ///< its number, out of how many, and its name; empty without trials
-    double share = 0;  ///< share of the session that is over
-    QString text;      ///< remaining time, or the time so far if that is unknown
+    QString trial;     ///< its number, the number of trials, and its name; "" without trials
+    double share = 0;  ///< completed share of the session
+    QString text;      ///< remaining time or, if that is unknown, elapsed time
 };
 
-/// `done`: share of the trials that are over. Without trials or a script only the time is known.
+/// `done`: share of completed trials. Without trials or a script, only the elapsed time is known.
 SessionProgress progress_of(const session::Plan& plan, const frame::Frame& frame, double done);
 
 }  // namespace dihaptic::gui

@@ -10,10 +10,10 @@ namespace dihaptic::gui {
 namespace {
 
 constexpr int kBeat = 100;        // a tenth of Live::kLongestSilence [ms]
-constexpr int kFirstBeat = 5000;  // latest first beat, even if there is no picture [ms]
+constexpr int kFirstBeat = 5000;  // time limit for the first beat, even without a picture [ms]
 
-/// Waits for the display: a key can switch the force off only if the display answers too. Asking
-/// X for the pointer's position returns only once it has answered.
+/// Waits until the display answers, because a key can switch force off only if the display works.
+/// Asking X for the pointer's position returns only once X has answered.
 void ask_display() {
     QCursor::pos();
 }
@@ -43,11 +43,11 @@ SessionRunner::~SessionRunner() {
 void SessionRunner::end_program() {
     SessionRunner* const runner = the_runner;
     if (runner == nullptr || !runner->busy_) return;
-    runner->stop_ = true;  // the servo's next tick sees it
+    runner->stop_ = true;  // takes effect in the servo's next tick
     std::fprintf(stderr, "The window is lost: force is off, and the session ends.\n");
     while (runner->busy_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::fflush(nullptr);
-    std::_Exit(1);  // not exit(), whose handlers use a lost window
+    std::_Exit(1);  // not exit(), whose handlers would use the lost window
 }
 
 void SessionRunner::pause_at_once() {
@@ -77,11 +77,11 @@ void SessionRunner::start(session::Plan plan, session::RunOptions options, doubl
     session_->plan = std::move(plan);
     session_->devices = std::move(devices);
     session_->knobs = frame::Knobs::of(session_->plan.settings);
-    // if the window never beats, force is switched off too
+    // force is also switched off if the window never sends a beat
     session_->live.note_alive(kFirstBeat * 1e-3);
     first_beat_.start();
-    // registered again for each session, so that exit() calls it before destroying objects made
-    // before the session
+    // registered again for each session, so that exit() calls it before it destroys objects that
+    // were made before the session
     std::atexit(end_program);
     options.live = &session_->live;
     options.observers = true;
@@ -95,7 +95,7 @@ void SessionRunner::start(session::Plan plan, session::RunOptions options, doubl
     };
     options.stuck = [](const std::string& message) {
         std::fprintf(stderr, "%s\n", message.c_str());
-        std::_Exit(1);  // a proper end would wait for a stuck thread
+        std::_Exit(1);  // an orderly exit would wait for a stuck thread
     };
     busy_ = true;
     thread_ = std::thread([this, options] {

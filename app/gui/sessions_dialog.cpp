@@ -30,9 +30,10 @@ struct SessionColumn {
 };
 
 constexpr const char* kNote = "note.txt";
-constexpr int kLooked = 20;  // number of sessions after which the columns' widths are adjusted
+constexpr int kLooked = 20;  // number of sessions after which the column widths are adjusted
 
-/// Reads a table of a session; calls `count` with the table, if it exists and is intact.
+/// Reads a table of a session and returns what `count` makes of it; "" if the table is missing or
+/// damaged.
 template <class Row>
 QString counted_in(const QString& file, QString (*count)(const rows::RowFile<Row>&)) {
     if (!is_there(file.toStdString())) return "";
@@ -43,7 +44,7 @@ QString counted_in(const QString& file, QString (*count)(const rows::RowFile<Row
     }
 }
 
-/// Number of attempts at trials.
+/// Number of trial attempts in a session, as text.
 QString trials_in(const QString& session) {
     if (!QFileInfo::exists(session + "/trial-list.csv")) return "";
     return counted_in<rows::TrialRow>(session + "/trials.csv", [](const rows::TrialFile& trials) {
@@ -51,7 +52,7 @@ QString trials_in(const QString& session) {
     });
 }
 
-/// Number of complete lifts, and of all lifts.
+/// Number of complete lifts and number of all lifts in a session, as text.
 QString lifts_in(const QString& session) {
     return counted_in<rows::LiftRow>(session + "/lifts.csv", [](const rows::LiftFile& lifts) {
         return SessionsDialog::tr("%1 of %2")
@@ -60,7 +61,7 @@ QString lifts_in(const QString& session) {
     });
 }
 
-/// Time of a session's ticks, as minutes and seconds.
+/// Total time of a session's ticks, in minutes and seconds.
 QString time_of(const recording::SessionFolder& folder, const recording::SessionInfo& info) {
     if (info.ticks <= 0) return "";
     try {
@@ -72,7 +73,8 @@ QString time_of(const recording::SessionFolder& folder, const recording::Session
     }
 }
 
-/// Changes since a session's end in those of its tables that are listed here, with remedies.
+/// Describes, with remedies, changes made since a session's end to those of its tables that are
+/// used in this list.
 QString changes_of(const recording::SessionFolder& folder, const recording::SessionInfo& info) {
     constexpr std::string_view kListed[] = {"trials.csv", "lifts.csv"};
     QStringList out;
@@ -128,7 +130,8 @@ SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
     resize(1000, 480);
 }
 
-/// Adds a session to the list; one at a time, since a running session requires a responsive window.
+/// Adds the next session to the list. Only one is added per call, because a running session
+/// requires a responsive window.
 void SessionsDialog::fill_one() {
     if (waiting_.isEmpty()) return filling_.stop();
     const QFileInfo entry = waiting_.takeFirst();
@@ -174,9 +177,9 @@ void SessionsDialog::write_note() {
     const QString session = item->data(0, Qt::UserRole).toString();
     const std::string file = (session + "/" + kNote).toStdString();
     try {
-        // checked before the user writes a note in vain, or a foreign file is shown as a note
+        // checked before the user writes a note in vain or sees a foreign file as a note
         check_replaceable(file);
-        // read again, because the note may have changed since the list was made
+        // read again, because the note may have changed since the list was filled
         const std::string before = is_there(file) ? read_text_file(file) : "";
         const auto note = ask_for_note(item->text(SessionColumn::folder_name),
                                        QString::fromStdString(before).trimmed(), this);

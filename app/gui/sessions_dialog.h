@@ -1,4 +1,4 @@
-// Lists the recorded sessions in a folder, for viewing or for writing a note.
+// Lists the recorded sessions in a folder, to be viewed or to get a note.
 #pragma once
 
 #include <QDialog>
@@ -15,24 +15,24 @@ class SessionsDialog : public QDialog {
     Q_OBJECT
 
   public:
-    /// `folder`: folder that contains the sessions' folders.
+    /// `folder`: the folder that contains the session folders.
     explicit SessionsDialog(const QString& folder, QWidget* parent = nullptr);
 
   Q_SIGNALS:
-    /// Folders of sessions.
+    /// The user chose to view these session folders.
     void chosen(const QStringList& folders);
 
   private:
     void fill_one();
     void fit_columns();
     void choose();
-    /// Asks for a note about a session, which is kept in its folder.
+    /// Asks for a note about a session, and stores it in the session's folder.
     void write_note();
 
     QTreeWidget* list_;
     QPushButton* open_;
     QPushButton* note_;
-    QFileInfoList waiting_;  // folders not yet listed
+    QFileInfoList waiting_;  // session folders that have not been listed yet
     QTimer filling_;
 };
 

@@ -14,7 +14,7 @@
 namespace dihaptic::gui {
 namespace {
 
-/// The duration of the file's session; empty if unknown.
+/// The duration of the file's session as text; empty if it is unknown.
 QString length_of(const session::Plan& plan) {
     if (plan.task) {
         const auto trials = plan.task->trials.size();
@@ -32,8 +32,8 @@ Shelf::~Shelf() {
 
 QString Shelf::picture_of(const QString& file) {
     QCryptographicHash hash(QCryptographicHash::Sha1);
-    // an experiment's picture also depends on its scene, whose changes go unnoticed here; for a
-    // small picture, it suffices that the key contains the program's version
+    // an experiment's picture also depends on its scene, but a change of the scene goes unnoticed
+    // here; for a small picture it is enough that the key contains the program's version
     hash.addData(bytes_of(file).value_or(QByteArray()));
     hash.addData(QFileInfo(file).absoluteFilePath().toUtf8());
     hash.addData(QCoreApplication::applicationVersion().toUtf8());
@@ -61,7 +61,7 @@ void Shelf::read(const QStringList& files) {
                 if (!plan.title.empty()) title = QString::fromStdString(plan.title);
                 length = length_of(plan);
             } catch (const std::exception&) {
-                // opening the file reports its faults
+                // the faults are reported when the file is opened
             }
             QMetaObject::invokeMethod(
                 this, [=, this] { Q_EMIT told(file, title, length); }, Qt::QueuedConnection);
@@ -86,7 +86,7 @@ void Shelf::draw_next() {
             draw_next();
         });
         drawing_->setStandardErrorFile(QProcess::nullDevice());
-        // the picture is not urgent, so it gives way to the window and to other programs
+        // the picture is not urgent: the window and other programs have priority
         drawing_->setChildProcessModifier([] { setpriority(PRIO_PROCESS, 0, 19); });
         drawing_->start(QCoreApplication::applicationDirPath() + "/dihaptic",
                         {"picture", file, "--size", "480x300", "-o", picture});
@@ -103,7 +103,7 @@ void Shelf::stop() {
         delete drawing_;
         drawing_ = nullptr;
     }
-    thread_ = {};  // requests a stop, and waits
+    thread_ = {};  // requests the thread to stop, and waits for it
 }
 
 }  // namespace dihaptic::gui

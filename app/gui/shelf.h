@@ -1,5 +1,5 @@
-// Reads the files for the start page, shipped ones or the user's, in a separate thread: their
-// titles and lengths, and small pictures drawn by `dihaptic picture`.
+// Reads the files for the start page, shipped files or the user's own, in a separate thread: their
+// titles and durations, and small pictures drawn with `dihaptic picture`.
 #pragma once
 
 #include <QObject>
@@ -16,17 +16,18 @@ class Shelf : public QObject {
     using QObject::QObject;
     ~Shelf() override;
 
-    /// Reads these files one after the other, and draws those that have no picture yet.
+    /// Reads these files one after the other, and draws a picture of each file that has none yet.
     void read(const QStringList& files);
-    /// Ends reading and drawing, which would keep the computer busy at a session's start.
+    /// Stops reading and drawing, which would keep the computer busy when a session starts.
     void stop();
 
-    /// Path of the picture of a file in its present state, whether or not it exists.
+    /// Path at which the picture of a file in its current state is stored, whether or not it exists
+    /// yet.
     static QString picture_of(const QString& file);
 
   Q_SIGNALS:
-    /// `length`: "45 trials", "8 s"; empty if the user decides when it ends. A file with an error
-    /// has no length.
+    /// `length`: duration of the file's session, e.g. "45 trials" or "8 s"; empty if the user
+    /// decides when it ends, or if the file has an error.
     void told(const QString& file, const QString& title, const QString& length);
     void drawn(const QString& file, const QString& picture);
 

@@ -15,10 +15,10 @@ namespace dihaptic::gui {
 namespace {
 
 constexpr QSize kTileSize{224, 140};
-constexpr QSize kItem{240, 200};  // picture with title and length below
+constexpr QSize kItem{240, 200};  // size of an item: a picture with title and duration below it
 constexpr int kFile = Qt::UserRole;
 
-/// Files for a start: a scene to play with, then a few with trials.
+/// Files for a first session: a scene to play with, followed by a few files with trials.
 const QStringList kFirst{"scenes/block-on-table.yaml", "experiments/first-trials.yaml",
                          "scenes/tools.yaml", "experiments/visuomotor-rotation.yaml"};
 
@@ -29,7 +29,8 @@ QStringList files_in(const QString& folder) {
     return out;
 }
 
-/// The comment at the head of a file, up to its first empty comment line or key.
+/// The comment at the beginning of a file, up to the first line that is an empty comment or not a
+/// comment.
 QString head_of(const QString& file) {
     QStringList lines;
     for (const QByteArray& bytes : bytes_of(file).value_or(QByteArray()).split('\n')) {
@@ -85,7 +86,7 @@ QListWidget* StartPage::add_list(const QString& title) {
     list->setWordWrap(true);
     connect(list, &QListWidget::itemActivated, this,
             [this](const QListWidgetItem* item) { Q_EMIT chosen(item->data(kFile).toString()); });
-    // one click is enough, as on a web page
+    // a single click opens the file, as on a web page
     connect(list, &QListWidget::itemClicked, this,
             [this](const QListWidgetItem* item) { Q_EMIT chosen(item->data(kFile).toString()); });
     tabs_->addTab(list, title);

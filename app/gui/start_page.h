@@ -1,5 +1,5 @@
-// The page shown while no file is open: files for a start, as pictures with titles and lengths, and
-// recently opened ones.
+// The page that is shown while no file is open: suggested and recently opened files, as pictures
+// with titles and durations.
 #pragma once
 
 #include <QListWidget>
@@ -16,15 +16,15 @@ class StartPage : public QWidget {
   public:
     explicit StartPage(QWidget* parent = nullptr);
 
-    /// Reads the files again.
+    /// Reads the files again and fills the page.
     void fill();
-    /// Stops reading, so that the computer is free for the file being opened.
+    /// Stops reading, so that the computer is free for the file that is being opened.
     void rest() { shelf_.stop(); }
 
     /// The folder that contains `scenes` and `experiments`: the working directory or, failing that,
-    /// the program's own; "" if there is none.
+    /// the program's own folder; "" if there is none.
     static QString shipped_folder();
-    /// Recently opened files that still exist, the last one first.
+    /// Recently opened files that still exist, most recent first.
     static QStringList recent_files();
 
   Q_SIGNALS:
@@ -35,7 +35,7 @@ class StartPage : public QWidget {
   private:
     QListWidget* add_list(const QString& title);
     void add(QListWidget* list, const QStringList& files);
-    /// Calls f for each item that shows the file.
+    /// Calls f for each item that represents this file.
     template <class F>
     void each(const QString& file, const F& f);
 

@@ -11,7 +11,7 @@
 namespace dihaptic::gui {
 namespace {
 
-std::atomic<bool> stop_requested{false};  // static, since a signal may come until the program ends
+std::atomic<bool> stop_requested{false};  // static: signals may come until the end
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// A request from outside to end the program. The running session receives it through a flag, in its
-// next tick, and the window through its event loop.
+// A request from outside to end the program. The running session receives the request through a
+// flag, in its next tick, and the window receives it through its event loop.
 #pragma once
 
 #include <QObject>
@@ -11,8 +11,8 @@ class StopRequest : public QObject {
     Q_OBJECT
 
   public:
-    /// From now on, signals that would end the program arrive here (common/stop_signals.h). A
-    /// program has only one StopRequest.
+    /// From now on, signals that would end the program are handled here (common/stop_signals.h). A
+    /// program must not have more than one StopRequest.
     StopRequest();
 
     /// Set by a signal, or by other code that ends the program.

@@ -1,4 +1,4 @@
-// A strip chart: one or more curves of the last seconds, on one scale.
+// A strip chart that shows the last seconds of one or more curves on a common scale.
 #pragma once
 
 #include <QWidget>
@@ -16,12 +16,12 @@ class StripChart : public QWidget {
     static constexpr double kSeconds = 10;
 
     using Curve = ChartPainter::Entry;
-    /// `unit`: unit of all curves. `least_range`: least range of the scale.
+    /// `unit`: common unit of the curves. `least_range`: smallest range of the scale.
     StripChart(QString title, QString unit, std::vector<Curve> curves, double least_range,
                QWidget* parent = nullptr);
 
-    /// Adds values at `time` [s], one for each curve; NaN leaves a gap. A time before the last one
-    /// restarts the chart.
+    /// Adds one value for each curve at `time` [s]; NaN leaves a gap. If the time is earlier than
+    /// the previous one, the chart restarts.
     void add(double time, const std::vector<double>& values);
     void clear();
 
@@ -36,7 +36,7 @@ class StripChart : public QWidget {
         double time;
         std::vector<double> values;
     };
-    /// Range of the scale. `lines`: approximate number of steps.
+    /// The scale, with approximately `lines` steps.
     Scale range(int lines) const;
 
     QString title_;

@@ -9,7 +9,7 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr double kShortestStretch = 0.02;  // shortest stretch that can be shown [s]
+constexpr double kShortestStretch = 0.02;  // shortest interval that can be shown [s]
 
 QColor colour_of(size_t row) {
     if (row == 0) return palette::kGrip;
@@ -119,7 +119,7 @@ void TimeChart::draw_row(QPainter& painter, size_t row, const QRectF& in) const 
     chart.draw_values();
     painter.save();
     painter.setClipRect(in);
-    // separate lines, because short ones within one curve would look thinner
+    // drawn as separate lines, because short lines within one curve would look thinner
     painter.setPen(QPen(colour_of(row), 1.4));
     for (size_t i = 1; i < points.size(); ++i)
         painter.drawLine(chart.at(points[i - 1]), chart.at(points[i]));

@@ -1,5 +1,5 @@
-// Curves over a stretch of a session's time, one row each, with a cursor at the displayed moment. A
-// click moves to a moment, the wheel zooms, a double click shows all.
+// A chart of curves over part of a session, one curve per row, with a cursor at the displayed time.
+// Clicking moves to a time, the wheel zooms, and double-clicking shows the whole session.
 #pragma once
 
 #include <QWidget>
@@ -15,16 +15,17 @@ class TimeChart : public QWidget {
   public:
     explicit TimeChart(QWidget* parent = nullptr);
 
-    /// The whole session [s]; all of it is shown.
+    /// Sets the start and end of the session [s], and shows all of it.
     void set_session(double begin, double end);
     double begin() const { return begin_; }
     double end() const { return end_; }
-    /// `begin` and `end`: limits of the curves' stretch. `share`: share of it that has been read.
+    /// `begin` and `end`: the interval for which the curves were read. `share`: the share of the
+    /// interval that has been read so far.
     void set_curves(std::vector<RecordedCurve> curves, double begin, double end, double share);
-    /// Values of the curves at the cursor, as text; empty if there is no cursor.
+    /// Sets the values of the curves at the cursor, as text; empty if there is no cursor.
     void set_values(const QStringList& values);
     void set_moments(std::vector<double> times);
-    /// The displayed moment [s]. If it is out of sight, the chart scrolls to it.
+    /// Sets the displayed time [s]. If it is out of view, the chart scrolls to it.
     void set_cursor(double time);
 
     QSize sizeHint() const override { return {900, 260}; }

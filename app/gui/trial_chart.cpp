@@ -9,7 +9,7 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr size_t kLeastAcross = 10;  // initial number of trials for which the width is designed
+constexpr size_t kLeastAcross = 10;  // number of trials for which there is room at first
 
 QColor outcome_colour(int outcome) {
     // the first outcome is usually the desired one
@@ -60,7 +60,7 @@ void TrialChart::paintEvent(QPaintEvent*) {
     draw_points(chart);
 }
 
-/// The outcomes that occurred.
+/// The outcomes that have occurred, with their colours.
 std::vector<ChartPainter::Entry> TrialChart::legend() const {
     std::set<int> came;
     for (const Point& point : points_) came.insert(point.outcome);

@@ -1,4 +1,4 @@
-// A chart of a number over trials: a staircase, or how a person learns.
+// A chart that plots a number over trials, e.g. a staircase or a learning curve.
 #pragma once
 
 #include <QWidget>
@@ -13,11 +13,12 @@ class TrialChart : public QWidget {
     explicit TrialChart(QWidget* parent = nullptr);
 
     struct Point {
-        double value = 0;  ///< NaN: the trial has no value
+        double value = 0;  ///< NaN if the trial has no value
         int outcome = 0;
         bool begins_block = false;
     };
-    /// `name`: name of the number, with its unit. `outcomes`: names of outcomes, for the legend.
+    /// `name`: name of the plotted number, with its unit. `outcomes`: names of the outcomes, for
+    /// the legend.
     void set_points(const QString& name, const QStringList& outcomes, std::vector<Point> points);
 
     QSize sizeHint() const override { return {320, 150}; }

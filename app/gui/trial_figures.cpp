@@ -30,7 +30,7 @@ void TrialFigures::follow(const QString& folder) {
         try {
             analysis::RunningTrials trials(folder);
             size_t told = 0;
-            bool again = false;  // the tick after an attempt completes its figures
+            bool again = false;  // figures of an attempt are complete only one tick after its end
             while (!stop.stop_requested()) {
                 const bool last = over_;
                 trials.look();
@@ -41,7 +41,7 @@ void TrialFigures::follow(const QString& folder) {
                 wait(stop);
             }
         } catch (const Error&) {
-            // no trials, or missing files: the end of the session reports the fault
+            // no trials or missing files: the fault is reported at the end of the session
         }
     });
 }

@@ -1,5 +1,5 @@
-// Reads the results of a running session's trials (errors, angles, the task's custom measures), in
-// a separate thread, from the log that the session writes.
+// Reads the results of a running session's trials (errors, angles, the task's own measures) in a
+// separate thread, from the log that the session writes.
 #pragma once
 
 #include <QObject>
@@ -17,13 +17,13 @@ class TrialFigures : public QObject {
     TrialFigures();
     ~TrialFigures() override;
 
-    /// Follows the session recorded in a folder; an earlier one is dropped.
+    /// Starts to follow the session recorded in `folder`, and drops an earlier one.
     void follow(const QString& folder);
-    /// The session is over: reads the rest of it.
+    /// To be called when the session is over: reads the rest of its log.
     void finish() { over_ = true; }
 
   Q_SIGNALS:
-    /// A row for each attempt so far, as trials.csv will have it.
+    /// A table with a row for each attempt so far, in the form of trials.csv.
     void found(const dihaptic::Table& trials);
 
   private:

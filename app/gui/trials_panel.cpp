@@ -14,13 +14,13 @@ namespace dihaptic::gui {
 namespace {
 
 struct Number {
-    QString name;  ///< ends in its unit
+    QString name;  ///< includes the unit at its end
     double si;     ///< that unit
 };
 
-constexpr int kSeconds = 5, kGrip = 6, kForce = 7, kOwn = 8;  // columns of numbers
+constexpr int kSeconds = 5, kGrip = 6, kForce = 7, kOwn = 8;  // columns that contain numbers
 
-/// A task's own numbers, in the order in which a frame stores them.
+/// The task's own numbers, in the order in which a frame stores them.
 std::vector<Number> numbers_of(const task::TaskPlan& plan) {
     std::vector<Number> out;
     const auto add = [&](const std::string& name) {
@@ -77,7 +77,7 @@ void TrialsPanel::set_plan(std::shared_ptr<const task::TaskPlan> plan) {
         table_->setColumnHidden(column, false);
         table_->resizeColumnToContents(column);
     }
-    // numbers that the task itself counts or chooses, if any
+    // shows the first number that the task itself counts or chooses, if there is one
     chart(units_.empty() ? kSeconds : kOwn);
 }
 
@@ -145,7 +145,7 @@ void TrialsPanel::add(const session::TrialEnd& end) {
     ends_.push_back(end);
     fill_in(ends_.size() - 1);
     chart(charted_);
-    // the view of a user who has scrolled back stays
+    // if the user has scrolled back, the view does not move
     const QScrollBar* const bar = table_->verticalScrollBar();
     if (bar->value() >= bar->maximum() - 1) table_->scrollToItem(item);
     if (table_->topLevelItemCount() == 1) {
@@ -160,7 +160,7 @@ void TrialsPanel::set_figures(const Table& trials) {
         return static_cast<size_t>(found - trials.columns.begin());
     };
     const size_t trial = place("trial_num"), attempt = place("attempt");
-    const size_t shown = place("peak_force_N");  // already shown, like the columns before it
+    const size_t shown = place("peak_force_N");  // already shown, like all columns before it
     const size_t first = shown + 1;
     if (!plan_ || trials.rows.empty() || std::max({trial, attempt, shown}) == trials.columns.size())
         return;
@@ -183,14 +183,14 @@ void TrialsPanel::set_figures(const Table& trials) {
         };
         const bool any = std::ranges::any_of(found_, has);
         table_->setColumnHidden(column, !any);
-        // a measure is more informative than the duration
+        // a measure tells more than the duration
         if (any && !chosen_ && charted_ == kSeconds && !figures_[i].endsWith("_s"))
             charted_ = column;
     }
     chart(charted_);
 }
 
-/// Adds a column for each number that is measured; those without a value stay hidden.
+/// Adds a column for each measured number. A column stays hidden as long as it has no values.
 void TrialsPanel::name_figures(const Table& trials, size_t first) {
     for (size_t i = first; i < trials.columns.size(); ++i) {
         const Table::Column& column = trials.columns[i];

@@ -1,5 +1,5 @@
-// The panel with a row for each finished attempt at a trial, with its measures a moment later, and
-// a chart of one of the columns.
+// The panel that lists the finished trial attempts, one per row, adds the measures of each a moment
+// later, and plots one of the columns.
 #pragma once
 
 #include <QTreeWidget>
@@ -19,17 +19,17 @@ class TrialsPanel : public QWidget {
   public:
     explicit TrialsPanel(QWidget* parent = nullptr);
 
-    /// A session with these trials starts; null: a session without trials.
+    /// Called when a session with these trials starts; null for a session without trials.
     void set_plan(std::shared_ptr<const task::TaskPlan> plan);
     void add(const session::TrialEnd& end);
-    /// Fills in the measures of these attempts. `trials`: as in trials.csv.
+    /// Fills in the measures of the attempts. `trials`: a table in the form of trials.csv.
     void set_figures(const Table& trials);
 
   private:
     /// The measures of an attempt.
     using Figures = std::vector<double>;
 
-    /// Shows a column of numbers in the chart.
+    /// Plots a column of numbers in the chart.
     void chart(int column);
     double value(size_t row, int column) const;
     void name_figures(const Table& trials, size_t first);
@@ -37,13 +37,13 @@ class TrialsPanel : public QWidget {
     int own_columns() const;
 
     std::shared_ptr<const task::TaskPlan> plan_;
-    std::vector<double> units_;  // units of the task's own columns, in SI
+    std::vector<double> units_;  // SI units of the task's own columns
     TrialChart* chart_;
     QTreeWidget* table_;
     int charted_ = 0;                               // column
-    bool chosen_ = false;                           // whether by a click
-    std::vector<session::TrialEnd> ends_;           // one for each row
-    QStringList figures_;                           // names of the columns after the task's own
+    bool chosen_ = false;                           // whether the user clicked to choose the column
+    std::vector<session::TrialEnd> ends_;           // one item for each row
+    QStringList figures_;                           // names of the columns after those of the task
     std::map<std::pair<int, int>, Figures> found_;  // measures by trial and attempt
 };
 

@@ -29,13 +29,13 @@ void TuningPanel::add(QFormLayout* form, E frame::Knobs::*knob, const frame::Kno
 void TuningPanel::add(QFormLayout* form, double frame::Knobs::*knob, const frame::Knob& is) {
     auto* box = new NumberBox;
     const bool may_be_unset = is.unset != nullptr;
-    // an unset knob has the value one step below the least, and is shown as text
+    // an unset knob is stored as one step below the smallest value, and shown as text
     box->setRange(may_be_unset ? is.least - is.step : is.least, is.most);
     if (may_be_unset) box->setSpecialValueText(is.unset);
     box->setSingleStep(is.step);
     box->setDecimals(std::max(0, static_cast<int>(std::ceil(-std::log10(is.step)))));
     if (is.unit != std::string("1")) box->setSuffix(QString(" ") + is.unit);
-    box->setKeyboardTracking(false);  // a number takes effect once it is typed completely
+    box->setKeyboardTracking(false);  // a number takes effect once completely typed
     box->setToolTip(is.what);
     form->addRow(is.label, box);
     connect(box, &QDoubleSpinBox::valueChanged, this, [this, knob, is](double value) {
@@ -46,7 +46,8 @@ void TuningPanel::add(QFormLayout* form, double frame::Knobs::*knob, const frame
     });
 }
 
-/// Keeps the exact values of the other knobs; their boxes may show them rounded.
+/// Changes one knob. The other knobs keep their exact values, although their boxes may show them
+/// rounded.
 template <class T>
 void TuningPanel::turn(T frame::Knobs::*knob, const frame::Knob& is, T value) {
     if (setting_) return;

@@ -1,5 +1,5 @@
-// The panel for the knobs that may be changed while a session runs. Changes take effect in one of
-// the next ticks.
+// The panel for the knobs that can be changed while a session runs. A change takes effect within a
+// few ticks.
 #pragma once
 
 #include <QFormLayout>
@@ -17,15 +17,15 @@ class TuningPanel : public QWidget {
   public:
     explicit TuningPanel(QWidget* parent = nullptr);
 
-    /// Shows the knobs with which the session starts.
+    /// Sets the knobs to the values with which the session starts.
     void set_knobs(const frame::Knobs& knobs);
 
   Q_SIGNALS:
-    /// `what`: the knob that the user turned, and its value, as text.
+    /// `what`: the knob that the user changed and its new value, as text.
     void turned(const dihaptic::frame::Knobs& knobs, const QString& what);
 
   private:
-    /// Adds a knob with the widget that shows its value.
+    /// Adds a knob, with the widget that shows its value.
     template <NamedEnum E>
     void add(QFormLayout* form, E frame::Knobs::*knob, const frame::Knob& is);
     void add(QFormLayout* form, double frame::Knobs::*knob, const frame::Knob& is);
@@ -34,7 +34,7 @@ class TuningPanel : public QWidget {
 
     frame::Knobs knobs_;
     std::vector<std::function<void()>> show_;  // for each knob, shows its value in knobs_
-    bool setting_ = false;  // whether the program, not the user, is setting values
+    bool setting_ = false;  // whether the values are being set by the program, not by the user
 };
 
 }  // namespace dihaptic::gui

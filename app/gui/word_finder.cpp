@@ -9,30 +9,30 @@
 namespace dihaptic::gui {
 namespace {
 
-/// Characters of a word: block.z is one word.
+/// Whether a character belongs to a word; block.z is one word.
 bool is_letter(QChar c) {
     return c.isLetterOrNumber() || c == '_' || c == '.';
 }
 
-/// The context of a position in a text, judged by the preceding text.
+/// The context of a position in a text, derived from the text before it.
 struct Around {
-    QChar bracket;   // innermost open bracket; null: none
-    QChar quote;     // quote around the position; null: none
-    QString before;  // preceding text of the item in brackets or, outside of brackets, of the line
-    QString close;   // what closes quotes and brackets
+    QChar bracket;   // innermost open bracket; null if there is none
+    QChar quote;     // quotation mark, if inside a quote; null if not
+    QString before;  // text before the position, in its item in brackets or in its line
+    QString close;   // characters that close the open quote and brackets
 
     QString dashes() const {
         static const QRegularExpression leading(R"(^\s*(-\s+)*)");
         return leading.match(before).captured();
     }
-    /// Whether a word at this position is a key, or may be one.
+    /// Whether a word at this position is or may be a key.
     bool takes_key() const {
         static const QRegularExpression key(R"(:\s)");
         if (!quote.isNull()) return false;
         return bracket == '{' ? !before.contains(key)
                               : bracket.isNull() && dashes().size() == before.size();
     }
-    /// Whether the word may be an item of a list with dashes.
+    /// Whether a word at this position may be an item of a list with dashes.
     bool takes_item() const { return bracket.isNull() && dashes().contains('-'); }
 };
 
@@ -87,14 +87,14 @@ class AroundFinder {
 
     const QString& text_;
     int at_;
-    std::vector<std::pair<QChar, int>> open_;  // brackets, and where the item in each begins
+    std::vector<std::pair<QChar, int>> open_;  // open brackets, and where their items begin
     QChar quote_;
     int line_ = 0;
     bool comment_ = false;
     bool begins_ = true;  // a value or a key may begin here, in quotes or brackets
 };
 
-/// The words that the readers accept in place of kNoWord in a text.
+/// The words that the file readers list as valid in place of kNoWord in a text.
 std::vector<Choice> words_in(const std::string& file, const QString& text) {
     const Unsaved unsaved(file, text.toStdString());
     Diagnostics diagnostics;

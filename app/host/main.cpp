@@ -1,5 +1,5 @@
-// dihaptic-host: owns the real devices of a session, in a separate process (src/host). The
-// program dihaptic starts it; there is no need to call it by hand.
+// dihaptic-host: owns the real devices of a session, in a separate process (src/host). The program
+// dihaptic starts this program; there is no need to call it by hand.
 #include <sys/stat.h>
 
 #include <cstdio>

@@ -8,7 +8,7 @@
 namespace dihaptic::mesh {
 
 using Corner = std::array<double, 3>;
-using Indices = std::array<size_t, 3>;  ///< three of a face's corners
+using Indices = std::array<size_t, 3>;  ///< indices of three corners of a face
 
 inline Corner cross(const Corner& o, const Corner& a, const Corner& b) {
     const Corner u{a[0] - o[0], a[1] - o[1], a[2] - o[2]};
@@ -20,9 +20,9 @@ inline double dot(const Corner& a, const Corner& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// The method is ear clipping. An ear is a corner whose triangle turns like the face and contains
-/// no other corner. Corners may be collinear. The widest ear is cut each time; if there is no ear,
-/// the next corner is cut, so that the triangles of any face join along edges.
+/// Cuts a face by ear clipping. An ear is a corner whose triangle has the same orientation as the
+/// face and contains no other corner. Corners may be collinear. The widest ear is cut each time; if
+/// there is no ear, the next corner is cut, so that the triangles of any face join along edges.
 inline std::vector<Indices> ears(const std::vector<Corner>& face) {
     Corner normal{};
     for (size_t i = 1; i + 1 < face.size(); ++i) {

@@ -1,11 +1,12 @@
 // dihaptic-mesh FORMAT: reads a mesh (obj, stl, ply or off) from standard input and writes its
-// triangles to standard output: a line "dihaptic mesh 2"; the numbers of vertices, of faces and of
-// parts, as 64-bit integers; the vertices, three doubles each; the faces, three 32-bit indices
-// each; the vertices' colours, 65536 red + 256 green + blue, as 32-bit integers, -1 where there is
-// none; the number of vertices in each part, as 64-bit integers; all as in this machine's memory.
-// Then the name of each part's material, each ended by a zero. The program dihaptic calls it, under
-// limits, because the library that reads meshes crashes on damaged ones; there is no need to call
-// it by hand.
+// triangles to standard output. The output is a line "dihaptic mesh 2", followed by the numbers of
+// vertices, faces and parts, as 64-bit integers; the vertices, as three doubles each; the faces, as
+// three 32-bit indices each; the colours of the vertices, as 32-bit integers with the value 65536
+// red + 256 green + blue, or -1 if there is no colour; the number of vertices in each part, as
+// 64-bit integers; and the name of the material of each part, terminated by a zero byte. Numbers
+// are in this machine's byte order. The program dihaptic calls this program, with resource limits,
+// because the library that reads meshes crashes on damaged files; there is no need to call it by
+// hand.
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -25,11 +26,11 @@
 
 namespace {
 
-/// How the program ends (base/companion.h).
+/// Exit status of the program (base/companion.h).
 enum Status : int { kDone = 0, kRefused = 1, kOutOfMemory = 3 };
 
-/// Lets the library read the mesh, but not the files named in it: materials would change the order
-/// of vertices, and thereby the felt surface.
+/// Lets the library read the mesh, but not other files to which the mesh refers: materials would
+/// change the order of the vertices, and thus the felt surface.
 class OneFile final : public Assimp::MemoryIOSystem {
   public:
     OneFile(const std::string& bytes, std::string name)
@@ -52,8 +53,8 @@ struct Surface {
     std::string materials;
 };
 
-/// Adds the colours of a part's vertices. In files they range from 0 to 1 or, as in some OFF files,
-/// to 255.
+/// Adds the vertex colours of a part. In files, colour values range from 0 to 1 or, as in some OFF
+/// files, from 0 to 255.
 void add_colours(const aiMesh& part, std::vector<int32_t>& out) {
     const aiColor4D* const colours = part.mColors[0];
     if (colours == nullptr) {
@@ -72,7 +73,7 @@ void add_colours(const aiMesh& part, std::vector<int32_t>& out) {
     }
 }
 
-/// Adds the triangles of a face; points and lines bound no volume.
+/// Adds the triangles of a face. Points and lines are skipped, because they do not bound a volume.
 void add_face(const aiFace& face, const aiMesh& part, uint32_t offset, Surface& out) {
     if (face.mNumIndices == 3) {
         out.faces.push_back(
@@ -89,7 +90,7 @@ void add_face(const aiFace& face, const aiMesh& part, uint32_t offset, Surface& 
             {offset + face.mIndices[a], offset + face.mIndices[b], offset + face.mIndices[c]});
 }
 
-/// The number of triangles of the faces.
+/// The total number of triangles in the faces.
 size_t count_triangles(const aiScene& scene) {
     size_t out = 0;
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
@@ -136,10 +137,10 @@ Status read(const std::string& format) {
     const std::string name = AI_MEMORYIO_MAGIC_FILENAME "." + format;
     constexpr unsigned kJoined = aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices;
     Assimp::Importer importer;
-    importer.SetIOHandler(new OneFile(bytes, name));  // the importer owns it from now on
+    importer.SetIOHandler(new OneFile(bytes, name));  // the importer takes ownership
     const auto read_with = [&](unsigned steps) { return importer.ReadFile(name, steps); };
     // counted first, because the library silently drops faces that it cannot triangulate, such as
-    // those with collinear corners; STL has triangles only
+    // faces with collinear corners; STL contains only triangles
     const aiScene* scene = format == "stl" ? nullptr : read_with(kJoined);
     const size_t wanted = scene == nullptr ? 0 : count_triangles(*scene);
     scene = read_with(kJoined | aiProcess_Triangulate);
@@ -153,7 +154,7 @@ Status read(const std::string& format) {
     const bool written = write(counts) && write(surface.vertices) && write(surface.faces) &&
                          write(surface.colours) && write(surface.parts) &&
                          write(surface.materials) && std::fflush(stdout) == 0;
-    // no destructors are called: they may crash on data from a damaged file
+    // destructors are not called, because they may crash on data from a damaged file
     std::_Exit(written ? kDone : kRefused);
 }
 

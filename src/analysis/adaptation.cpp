@@ -19,7 +19,7 @@ using rows::TrialFile;
 using rows::TrialKind;
 using rows::TrialRow;
 
-/// Compensations of the trials that `meant` selects, in order.
+/// Compensations in the trials for which `meant` returns true, in trial order.
 template <class Meant>
 std::vector<double> measured(const std::vector<Trial>& trials, Meant meant) {
     std::vector<double> out;
@@ -29,12 +29,12 @@ std::vector<double> measured(const std::vector<Trial>& trials, Meant meant) {
     return out;
 }
 
-/// 100 ln(a / b); NaN if either is not positive.
+/// Returns 100 ln(a / b), or NaN if a or b is not positive.
 double in_percent(double a, double b) {
     return a > 0 && b > 0 ? 100 * std::log(a / b) : kUnmeasured;
 }
 
-/// Perturbations that differ by less than this count as the same [deg], [%].
+/// Perturbations that differ by less than this are treated as equal [deg] or [%].
 constexpr double kSame = 0.5;
 
 using Stretch = AdaptationCurve::Stretch;
@@ -53,7 +53,7 @@ std::span<const double> last_of(const std::vector<double>& x, size_t count) {
     return std::span(x).last(std::min(count, x.size()));
 }
 
-/// Mean of a minus mean of b, with Welch's interval.
+/// Mean of a minus mean of b, with Welch's confidence interval.
 Window difference(std::span<const double> a, std::span<const double> b, double sign) {
     const Sample of_a = sample(a);
     const Sample of_b = sample(b);
@@ -80,7 +80,8 @@ bool is_perturbed(const Stretch& s) {
     return has_kind(s, TrialKind::perturbed);
 }
 
-/// Whether the stretch has perturbations of both signs, as when each trial draws its own.
+/// Whether the stretch has perturbations of both signs, as when each trial draws its own
+/// perturbation.
 bool has_both_signs(const Stretch& s) {
     const auto any = [&](double sign) {
         return std::ranges::any_of(s.trials, [&](const Trial& t) {
@@ -90,8 +91,9 @@ bool has_both_signs(const Stretch& s) {
     return any(1) && any(-1);
 }
 
-/// Compensations that show learning in a block's trials of one kind: those measured in its channel
-/// trials or, if the session has no channels, in all its trials.
+/// Compensations that show the learning in those trials of a block that have one kind: the
+/// compensations measured in channel trials or, if the session has no channels, in all of the
+/// trials.
 std::vector<double> learned_in(const Stretch& stretch, TrialKind kind, bool in_channels) {
     if (!in_channels) return measured_kind(stretch, kind);
     return has_kind(stretch, kind) ? stretch.compensation : std::vector<double>{};
@@ -102,14 +104,15 @@ bool only_catches(const Stretch& s) {
                        [](const Trial& t) { return t.kind == TrialKind::catch_trial; });
 }
 
-/// The first Trial::under among the stretch's perturbed trials; "" if all are empty.
+/// Trial::under of the stretch's first perturbed trial for which it is not empty; "" if there is no
+/// such trial.
 std::string under(const Stretch& s) {
     for (const Trial& t : s.trials)
         if (t.kind == TrialKind::perturbed && !t.under.empty()) return t.under;
     return "";
 }
 
-/// Whether both stretches have the same perturbation, as far as is known.
+/// Whether both stretches have the same perturbation, as far as the perturbations are known.
 bool alike(const Stretch& a, const Stretch& b) {
     return under(a) == under(b) && std::abs(a.perturbation - b.perturbation) < kSame;
 }
@@ -118,7 +121,7 @@ Window savings(const std::vector<Stretch>& stretches) {
     const auto learned = [](const Stretch& s) { return std::abs(s.perturbation) > kSame; };
     const auto first = std::find_if(stretches.begin(), stretches.end(), learned);
     if (first == stretches.end()) return {};
-    bool between = false;  // whether another perturbation, or none, came since
+    bool between = false;  // whether a different perturbation, or no perturbation, came in between
     for (auto later = first + 1; later != stretches.end(); ++later) {
         const bool same = std::abs(later->perturbation - first->perturbation) < kSame;
         if (same && between) {
@@ -132,15 +135,15 @@ Window savings(const std::vector<Stretch>& stretches) {
 }
 
 Window rebound(const std::vector<Stretch>& stretches) {
-    constexpr size_t kLast = 2;  // few, because compensation still changes when a reversal ends
+    constexpr size_t kLast = 2;  // few, since compensation is still changing when a reversal ends
     double first = 0;
     for (size_t i = 1; i < stretches.size(); ++i) {
         const Stretch& before = stretches[i - 1];
         if (first == 0 && std::abs(before.perturbation) > kSame) first = before.perturbation;
         if (!stretches[i].clamp || first * before.perturbation >= 0) continue;
         const std::vector<double>& clamp = stretches[i].compensation;
-        // without channels in the opposite field, the clamp's first trials stand for that field's
-        // end
+        // without channels in the opposite field, the first trials of the clamp stand in for the
+        // end of that field
         const auto from = before.compensation.empty() ? first_of(clamp, kLast)
                                                       : last_of(before.compensation, kLast);
         return difference(last_of(clamp, kFewTrials), from, std::copysign(1.0, first));
@@ -148,15 +151,15 @@ Window rebound(const std::vector<Stretch>& stretches) {
     return {};
 }
 
-/// Reads an adaptation index from an attempt's row. A channel shows no error, and for a trial
-/// without a channel only the field is known.
+/// Takes an adaptation index from the row of an attempt. In a channel no error is visible; for a
+/// trial without a channel, only the field is known.
 void take_index(Trial& trial, double index, double field_share) {
     trial.compensation = 100 * index;
     trial.clamp = is_clamp(trial.kind) || std::isnan(field_share);
     trial.perturbation = trial.clamp ? 0 : 100 * field_share;
 }
 
-/// Names the curves' measure, and sets their unit to percent.
+/// Sets the name of the measure of these curves, and sets their unit to percent.
 void name_measure(std::vector<AdaptationCurve>& curves, const char* measure) {
     for (AdaptationCurve& curve : curves) {
         curve.unit = std::string(1, '%');
@@ -164,7 +167,7 @@ void name_measure(std::vector<AdaptationCurve>& curves, const char* measure) {
     }
 }
 
-/// Sets the trial's figures to NaN if a perturbation acts whose learning has no measure.
+/// Sets the trial's values to NaN if it has a perturbation for which learning has no measure.
 void leave_out_unmeasured(Trial& trial, double share) {
     if (share == 0) trial.under.clear();
     if (trial.under.empty()) return;
@@ -172,7 +175,7 @@ void leave_out_unmeasured(Trial& trial, double share) {
     trial.perturbation = trial.compensation = kUnmeasured;
 }
 
-/// Reads an angle or an extent; returns whether it is an extent.
+/// Takes an angle or an extent from a reach. Returns whether it was an extent.
 bool take_reach(Trial& trial, const rows::TrialMeasures& reach) {
     const double way = reach.hand_extent_mm;
     double shown;
@@ -184,7 +187,7 @@ bool take_reach(Trial& trial, const rows::TrialMeasures& reach) {
         trial.compensation = in_percent(reach.wanted_extent_mm, way);
         shown = in_percent(reach.shown_extent_mm, way);
     }
-    // a reach that fell short showed no error, and a clamp does not show the true error
+    // the person saw no error if the reach fell short, and not the true error in a clamp
     trial.clamp = is_clamp(trial.kind) || std::isnan(trial.compensation);
     trial.perturbation = trial.clamp ? 0 : shown;
     return !std::isnan(way);
@@ -427,7 +430,7 @@ std::vector<AdaptationCurve> adaptation_curves(const TrialFile& trials,
         } else {
             extents = take_reach(trial, trials[i].measures) || extents;
         }
-        // the error seen in a repeated attempt is kept, but its compensation is not used
+        // the error in a repeated attempt is kept, but the compensation is not used
         if (trials[i].measures.attempt < last.at(trial.number)) trial.compensation = kUnmeasured;
         any = any || !std::isnan(trial.compensation);
         trial.under = unmeasured_in(asked.perturbation, unmeasured);
@@ -464,8 +467,8 @@ std::vector<AdaptationCurve> error_curves(const TrialFile& trials, const std::st
         trial.kind = asked.kind;
         const bool acts = !asked.perturbation.empty() && !is_clamp(trial.kind);
         trial.perturbation = acts ? asked.share : 0;
-        trial.compensation = trials.number(i, error);  // the error, until replaced below
-        // a person who did not move saw no error; a repeated attempt taught something, but its
+        trial.compensation = trials.number(i, error);  // holds the error until it is replaced below
+        // a person who did not move saw no error; a repeated attempt caused learning, but its
         // compensation is not used
         trial.clamp = is_clamp(trial.kind) || std::isnan(trial.compensation);
         if (trials[i].measures.attempt < last.at(trial.number)) trial.compensation = kUnmeasured;

@@ -44,7 +44,7 @@ class Exporter {
                         "Give another session.");
         }
         systems_ = bids::tracking_systems(session_, info_, log.head());
-        data_set_.check();  // before the lengthy work
+        data_set_.check();  // fail before the lengthy work
         make_folders(folder_of_set_, data_set_.place() + "/motion");
         remove_dead_parts(folder_ + "/.export");
         const Output staging(folder_ + "/.export");
@@ -74,7 +74,7 @@ class Exporter {
     }
 
   private:
-    /// Prefix of the paths of the run's files, in the subject's folder.
+    /// Prefix of the paths of the run's files, relative to the subject's folder.
     std::string stem() const {
         return fmt::format("{}/{}_task-{}", folder_, data_set_.stem(), label(task_));
     }
@@ -107,7 +107,7 @@ class Exporter {
                     if (!line.empty()) line += '\t';
                     const double value = channel.value(*frame);
                     if (std::isnan(value)) {
-                        line += "n/a";  // after a gap in the recording
+                        line += "n/a";  // the row comes after a gap in the recording
                     } else {
                         fmt::format_to(std::back_inserter(line), "{:.9g}", value);
                     }
@@ -124,7 +124,8 @@ class Exporter {
         }
     }
 
-    /// Writes the events, which all tracking systems share. Returns false if there are none.
+    /// Writes the events, which are common to all tracking systems. Returns false if there are
+    /// none.
     bool write_events() const {
         const auto events = bids::events_of(session_, info_);
         if (!events) return false;
@@ -133,8 +134,8 @@ class Exporter {
         return true;
     }
 
-    /// Throws Error when another task in the data set has the same label: the two would look like
-    /// runs of one task.
+    /// Throws Error when another task in the data set has the same label, because both tasks would
+    /// look like runs of one task.
     void check_task() const {
         for (int run = 1; run < run_; ++run) {
             const std::string there = fmt::format("{}_tracksys-{}_run-{:02}_motion.json", stem(),
@@ -145,7 +146,7 @@ class Exporter {
                 json.is_object() && json.contains("TaskName") && json["TaskName"].is_string()
                     ? json["TaskName"].get<std::string>()
                     : "";
-            // earlier versions wrote the label as the task's name
+            // earlier versions stored the label as the name of the task
             if (name.empty() || name == task_ || name == label(task_)) continue;
             throw Error({there, 0}, "TaskName",
                         fmt::format("is {}, but {} would have the same label in file names: {}",
@@ -154,8 +155,8 @@ class Exporter {
         }
     }
 
-    /// Renames the files. The first finger's motion comes last: if that file exists, the run is
-    /// complete.
+    /// Gives the files their final names. The motion file of the first finger is renamed last: if
+    /// it exists, the run is complete.
     void give_names(bool events) const {
         const auto name = [](const std::string& from, const std::string& to) {
             check_replaceable(to);

@@ -13,14 +13,14 @@
 namespace dihaptic::analysis {
 namespace {
 
-constexpr double kShortestTrial = 0.3;      // length of a trial that is used [s]
+constexpr double kShortestTrial = 0.3;      // length of the part of a trial that is used [s]
 constexpr double kLongestTrial = 1;         // [s]
-constexpr double kDerivativeWindow = 0.05;  // window of the derivative [s]
+constexpr double kDerivativeWindow = 0.05;  // window for the derivative [s]
 constexpr size_t kFewest = 3;               // trials
-constexpr double kErrors = 3;               // standard errors by which the means have to differ ...
-constexpr double kDifferenceLasts = 0.02;   // ... for so long [s]
+constexpr double kErrors = 3;              // the means must differ by this many standard errors ...
+constexpr double kDifferenceLasts = 0.02;  // ... for this long [s]
 
-/// Mean and squared standard error of the velocities at a tick.
+/// Mean velocity at a tick, and its squared standard error.
 struct MeanVelocity {
     double mean = 0;
     double variance = 0;
@@ -37,7 +37,7 @@ MeanVelocity mean_at(const std::vector<const Velocities*>& trials, size_t tick) 
     return out;
 }
 
-/// Number of ticks that nine tenths of the trials reach; no less than kShortestTrial.
+/// Number of ticks that at least nine tenths of the trials have, but no less than kShortestTrial.
 size_t most_have(const std::vector<const Velocities*>& trials, double tick) {
     std::vector<size_t> lengths;
     for (const Velocities* v : trials) lengths.push_back(v->size());
@@ -46,7 +46,8 @@ size_t most_have(const std::vector<const Velocities*>& trials, double tick) {
     return lengths.empty() ? least : std::max(least, lengths[lengths.size() / 10]);
 }
 
-/// The trials of at least this many ticks. Adds the number of the others to `left_out`.
+/// Returns the trials that have at least this many ticks, and adds the number of shorter trials to
+/// `left_out`.
 std::vector<const Velocities*> long_enough(const std::vector<const Velocities*>& trials,
                                            size_t ticks, int& left_out) {
     std::vector<const Velocities*> out;
@@ -60,8 +61,8 @@ std::vector<const Velocities*> long_enough(const std::vector<const Velocities*>&
     return out;
 }
 
-/// Where the curve last rises through `level` before `peak`, between ticks; nullopt if it is above
-/// from the start.
+/// Position (between ticks) at which the curve last rises through `level` before `peak`; nullopt if
+/// the curve is above `level` from the start.
 std::optional<double> rises_through(const std::vector<double>& curve, double level, size_t peak) {
     for (size_t i = peak; i > 0; --i) {
         if (curve[i - 1] >= level) continue;
@@ -71,13 +72,13 @@ std::optional<double> rises_through(const std::vector<double>& curve, double lev
     return std::nullopt;
 }
 
-/// The difference of the means, and its standard error, by tick.
+/// The difference between the means and its standard error, for each tick.
 struct Difference {
     std::vector<double> d;
     std::vector<double> error;
-    std::optional<size_t> peak;  // tick of the first excursion's peak
+    std::optional<size_t> peak;  // tick at which the first excursion peaks
 
-    /// Whether the means differ at a tick, to the side of `sign`.
+    /// Whether the means differ at a tick, in the direction of `sign`.
     bool differs(size_t i, double sign) const {
         return sign * d[i] > 0 && sign * d[i] >= kErrors * error[i];
     }
@@ -95,9 +96,9 @@ Difference difference(const std::vector<const Velocities*>& trials,
     return out;
 }
 
-/// The tick of the first excursion's peak: the means differ for 20 ms to one side, and the
-/// difference then grows until it has fallen to half of its largest value. A later excursion, such
-/// as the way back after a jump that does not last, is ignored.
+/// Returns the tick at which the first excursion peaks: the means differ in one direction for 20
+/// ms, and the difference then grows until it has fallen to half of its largest value. Later
+/// excursions, such as the return after a jump that does not last, are ignored.
 std::optional<size_t> first_peak(const Difference& of, double tick) {
     const auto lasts = static_cast<size_t>(std::llround(kDifferenceLasts / tick));
     size_t in_a_row = 0;
@@ -201,7 +202,7 @@ void CorrectionFinder::add(const frame::Frame& frame) {
         return;
     }
     Trial& trial = attempt_of(frame);
-    if (gap) trial.whole = false;  // the state may have begun in the gap
+    if (gap) trial.whole = false;  // the state may have begun during the gap
     if (frame.phase == phase_ && trial.velocities.empty()) now_ = &trial;
     if (frame.task.outcome >= 0) trial.ended = true;
     if (now_ == nullptr || static_cast<double>(trial.velocities.size()) * tick_ >= kLongestTrial)
@@ -211,7 +212,7 @@ void CorrectionFinder::add(const frame::Frame& frame) {
 }
 
 const Velocities* CorrectionFinder::velocities_of(size_t i) const {
-    // a perturbation in part is a different perturbation
+    // a partial perturbation counts as a different perturbation
     if (asked_[i].kind == rows::TrialKind::practice || asked_[i].share != 1) return nullptr;
     const auto found = trials_.find(static_cast<int>(i) + 1);
     if (found == trials_.end()) return nullptr;

@@ -1,6 +1,6 @@
-// Finds how soon a hand corrects its movement: the time at which the mean velocity in trials in
-// which something happens (a target or a cursor jumps, a force pushes) departs from that in matched
-// trials in which nothing happens.
+// Finds how soon a hand corrects its movement after an event (a target or a cursor jumps, a force
+// pushes): the time at which the mean velocity in trials with the event departs from the mean
+// velocity in matched trials without it.
 //
 //     d(t)  = mean v(t) in the trials - mean v(t) in the matched ones, along an axis, from the
 //             beginning of a state at t = 0 on
@@ -24,24 +24,26 @@
 
 namespace dihaptic::analysis {
 
-/// The velocities of a trial from the state's beginning on, one for each tick.
+/// The velocities in a trial, one for each tick, from the beginning of the state.
 using Velocities = std::vector<double>;
 
-/// The correction in `trials` against `matched`. They are compared for as long as nine tenths of
-/// the trials of each kind last, 0.3 s to 1 s; shorter trials are left out.
+/// Finds the correction in `trials` by comparing them with `matched`. The comparison covers as much
+/// time as nine tenths of the trials of each kind last, but 0.3 s to 1 s; shorter trials are left
+/// out.
 rows::CorrectionRow find_correction(const std::vector<const Velocities*>& trials,
                                     const std::vector<const Velocities*>& matched, double tick);
 
 class CorrectionFinder {
   public:
-    /// Nullopt if the session's task does not describe corrections, or if its files cannot be read.
+    /// Returns nullopt if the session's task does not describe corrections, or if the session's
+    /// files cannot be read.
     static std::optional<CorrectionFinder> of(const recording::SessionFolder& folder,
                                               const recording::LogHead& head,
                                               const std::vector<std::string>& phases);
 
     void add(const frame::Frame& frame);
-    /// By round, condition and perturbation, in the order of their first trials. The last attempt
-    /// at each trial is used; practice is left out.
+    /// Returns one row per round, condition and perturbation, in the order of their first trials.
+    /// Only the last attempt at each trial is used; practice trials are left out.
     std::vector<rows::CorrectionRow> rows() const;
 
   private:
@@ -50,34 +52,34 @@ class CorrectionFinder {
     struct Trial {
         int attempt = 0;
         bool ended = false;
-        bool whole = true;  // without a gap in the recording
+        bool whole = true;  // the velocities were recorded without a gap
         Velocities velocities;
     };
 
-    /// The trials of a row of the table.
+    /// The trials behind one row of the table.
     struct Group {
         std::string round, condition, perturbation;
         bool operator==(const Group&) const = default;
     };
 
     Trial& attempt_of(const frame::Frame& frame);
-    /// Null if the trial is not used.
+    /// Returns null if the trial is not used.
     const Velocities* velocities_of(size_t trial) const;
-    /// Whether a trial is one in which nothing happens, to be compared with those of `condition`.
+    /// Whether nothing happens in the trial, so that it can be compared with trials of `condition`.
     bool is_matched(const rows::AskedRow& row, const std::string& condition) const;
-    /// The perturbation of the matched trials: the group's own, which their conditions make
-    /// harmless, or else none.
+    /// The perturbation of the matched trials: the group's own perturbation, if the conditions of
+    /// the matched trials make it harmless; otherwise none.
     std::string matched_perturbation(const Group& group) const;
     std::vector<Group> groups() const;
 
     task::CorrectionSpec spec_;
-    std::vector<rows::AskedRow> asked_;  // by trial
+    std::vector<rows::AskedRow> asked_;  // one per trial
     size_t finger_ = 0;
     int phase_ = -1;
     double tick_ = 1e-3;
     std::map<int, Trial> trials_;
     int64_t sequence_ = -1;  // sequence number of the last frame
-    Trial* now_ = nullptr;   // the attempt in which the state has begun
+    Trial* now_ = nullptr;   // the attempt in which the state began
 };
 
 }  // namespace dihaptic::analysis

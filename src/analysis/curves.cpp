@@ -21,12 +21,12 @@ namespace {
 
 constexpr const char* kTrial = "trial";
 
-/// The values of one quantity in a tick: one number, or one for each component.
+/// A recorded quantity, with one number per tick or one for each component.
 struct Curve {
     std::string name;
-    std::string unit;   ///< as usually written
-    std::string parts;  ///< "xyz" of a vector, "wxyz" of a rotation, "" of a number
-    size_t first = 0;   ///< index of its first number in the tick's row
+    std::string unit;   ///< unit as usually written
+    std::string parts;  ///< "xyz" for a vector, "wxyz" for a rotation, "" for a number
+    size_t first = 0;   ///< index of the quantity's first number in a TickRow
 
     size_t width() const { return std::max<size_t>(1, parts.size()); }
 };
@@ -38,7 +38,7 @@ std::string parts_of() {
     return "";
 }
 
-/// Lists the quantities in a tick of a log, in the order of a TickRow, and the lists that have no
+/// Lists the quantities recorded in a tick, in the order of a TickRow, and the lists that have no
 /// curves.
 class CurveLister {
   public:
@@ -96,7 +96,7 @@ class CurveLister {
     std::string item_;
 };
 
-/// All numbers of a tick that have curves.
+/// All the numbers of a tick that belong to curves.
 class TickRow {
   public:
     const std::vector<double>& of(const frame::Frame& frame) {
@@ -130,10 +130,10 @@ class TickRow {
 
 struct Column {
     std::string name;
-    size_t index = 0;  ///< index in the tick's row
+    size_t index = 0;  ///< index in a TickRow
 };
 
-/// A name that may be requested, and its columns.
+/// A name that can be requested, and the columns it stands for.
 struct Known {
     std::string asked;
     std::vector<Column> columns;
@@ -177,7 +177,7 @@ std::vector<Column> columns_of(const std::vector<std::string>& names, const Curv
         }
     }
     diagnostics.throw_if_errors();
-    // each column once; the trial's column is always written, before all others
+    // each column occurs once; the trial column is always written, and comes first
     std::vector<Column> once;
     for (const Column& column : out) {
         const bool there = std::ranges::find(once, column.name, &Column::name) != once.end();
@@ -186,7 +186,8 @@ std::vector<Column> columns_of(const std::vector<std::string>& names, const Curv
     return once;
 }
 
-/// A cell: nine digits, which is more than in session.nwb, and all digits of whole numbers.
+/// Appends a cell with nine digits, which is more than session.nwb has, or with all digits for
+/// whole numbers.
 void add_cell(std::string& line, double value) {
     line += ',';
     if (std::isnan(value)) return;

@@ -1,13 +1,14 @@
 // Exports the recorded data of each tick as one wide table (CSV): a row for each tick, with
 //
 //   t_s                    time of the tick, since activation
-//   trial                  its number, from 1; 0: none
+//   trial                  trial number, from 1; 0 between trials
 //   grip_force_N, ...      requested quantities, in SI units
 //
-// Quantities are named as in docs/quantities.md; for a finger, body or joint, the quantity follows
-// its name and a dot, and a component follows another dot: block.position.z. Without a component, a
-// vector has a column for each. Unmeasured values are empty cells. Ticks are read from raw.log one
-// after the other, so that memory does not grow with the session's length.
+// Quantities are named as in docs/quantities.md. The name of a finger, body or joint comes before
+// the quantity, and a component comes after it, separated by dots: block.position.z. A vector
+// requested without a component gets one column for each component. Unmeasured values are empty
+// cells. Ticks are read from raw.log one at a time, so that memory use does not grow with the
+// length of the session.
 #pragma once
 
 #include <functional>
@@ -18,13 +19,13 @@
 
 namespace dihaptic::analysis {
 
-/// The name of a quantity's column: the quantity followed by its unit as usually written,
-/// damping_Ns_m.
+/// Returns the name of a quantity's column, i.e. the quantity followed by its unit as usually
+/// written, e.g. damping_Ns_m.
 std::string column_name(const std::string& quantity, const std::string& unit);
 
-/// Writes the file and returns the faults of raw.log, in sentences. `names`: names of quantities,
-/// in the order of their columns. Throws Error when the session has not ended or has no recording,
-/// when it recorded no quantity with such a name, or when the file cannot be written.
+/// Writes the file and returns the faults found in raw.log, as sentences. `names`: names of
+/// quantities, in column order. Throws Error when the session has not ended or has no recording,
+/// when a name is not that of a recorded quantity, or when the file cannot be written.
 std::vector<std::string> export_curves(const recording::SessionFolder& session,
                                        const std::vector<std::string>& names,
                                        const std::string& file,

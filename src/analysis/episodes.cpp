@@ -8,12 +8,12 @@ namespace dihaptic::analysis {
 namespace {
 
 constexpr double kShortestEpisode = 0.02;  // [s]
-constexpr double kLettingGo =
-    0.05;  // fingers that pressed within this time before a flight released the object [s]
-constexpr double kSlideSpeed = 0.001;  // speed below which the object creeps or rests [m/s]
-constexpr double kHandSpeed = 0.05;    // speed below which the hand is still [m/s]
+constexpr double kLettingGo = 0.05;    // fingers that pressed within this time before the flight
+                                       // count as having released the object [s]
+constexpr double kSlideSpeed = 0.001;  // below this speed the object creeps or rests [m/s]
+constexpr double kHandSpeed = 0.05;    // below this speed the hand is still [m/s]
 
-/// The kind of episode that a sample is part of, if any.
+/// The kind of episode to which a sample belongs, if any.
 struct State {
     std::optional<rows::EpisodeKind> kind;
     PerFinger<char> touching;
@@ -36,8 +36,8 @@ struct Run {
     Range range;
 };
 
-/// Stretches of one state that last long enough. Holds, or slides, that are separated only by
-/// shorter stretches count as one.
+/// Returns the runs of samples in one state that last long enough. Two holds, or two slides, with
+/// only shorter runs between them are merged into one.
 std::vector<Run> runs_of(const GraspTrace& trace, bool flies) {
     const std::vector<GraspTrace::Sample>& samples = trace.samples();
     const auto shortest = static_cast<size_t>(std::ceil(kShortestEpisode / trace.tick()));
@@ -95,12 +95,12 @@ void measure_slide(const GraspTrace& trace, const ObjectFacts& object, Episode& 
     double closed_form = 0;
     for (size_t i = out.range.first + 1; i < out.range.last; ++i) {
         const GraspTrace::Sample& s = samples[i];
-        // h times a step's force times the mean of the velocities before and after it is its change
-        // of energy
+        // the force times h times the mean of the velocities before and after the step is the
+        // change of energy
         const Vec3 v = (samples[i - 1].v_sliding + s.v_sliding) / 2;
         out.distance += h * v.norm();
         if (s.support < 0)
-            continue;  // the object left its support for less than an episode's duration
+            continue;  // the object left its support for less time than an episode must last
         Vec3 load = object.mass * object.gravity;
         for (const size_t finger : out.fingers) load -= s.f_sent_W[finger];
         const double mu =
@@ -120,9 +120,9 @@ void measure_flight(const GraspTrace& trace, const ObjectFacts& object, Episode&
     const double h = trace.tick();
     const size_t first = out.range.first;
     const Vec3 p0 = samples[first].X_WB.p;
-    // initial velocity of the parabola through the first two positions
+    // initial velocity of the parabola through the object's first two positions
     const Vec3 v0 = (samples[first + 1].X_WB.p - p0) / h - object.gravity * h / 2;
-    // in its first tick in the air, the object is already moving along its path
+    // in its first airborne tick, the object is already moving along its path
     const double let_go_at = samples[first > 0 ? first - 1 : 0].X_WB.p.z();
     out.rise = out.off_path = 0;
     for (size_t i = first; i < out.range.last; ++i) {

@@ -1,4 +1,4 @@
-// Finds episodes in which the object is held, slides on something, or flies, from the frames alone,
+// Finds episodes in which the object is held, slides on something or flies, using only the frames,
 // and computes those figures for which mechanics gives a closed form.
 //
 // hold    fingers press the object and nothing else does. Figures: how far they slipped, how far
@@ -23,22 +23,22 @@
 
 namespace dihaptic::analysis {
 
-/// An episode, with its position in the trace.
+/// An episode and its position in the trace.
 struct Episode : rows::EpisodeRow {
-    Range range;                  ///< samples of the trace
-    std::vector<size_t> fingers;  ///< fingers that press the object; flight: those that released it
+    Range range;                  ///< range of samples in the trace
+    std::vector<size_t> fingers;  ///< fingers that press the object or, in a flight, released it
 };
 
-/// Properties that determine the object's mechanics; NaN when unknown.
+/// Properties of the object that its mechanics depend on; NaN if unknown.
 struct ObjectFacts {
     double mass = kUnmeasured;  ///< [kg]
     Vec3 gravity = Vec3::Constant(kUnmeasured);
-    std::vector<double> friction;         ///< coefficient with each body of the scene
-    std::vector<double> finger_friction;  ///< coefficient with each finger
-    bool flies = true;  ///< whether an untouched object falls: no joint or rail holds it
+    std::vector<double> friction;         ///< coefficients with each body of the scene
+    std::vector<double> finger_friction;  ///< coefficients with each finger
+    bool flies = true;  ///< whether the object falls when untouched, i.e. no joint or rail holds it
 };
 
-/// Episodes in order of time. A state that lasts less than 20 ms is not an episode.
+/// Returns the episodes in time order. A state that lasts less than 20 ms is not an episode.
 std::vector<Episode> find_episodes(const GraspTrace& trace, const ObjectFacts& object);
 
 }  // namespace dihaptic::analysis

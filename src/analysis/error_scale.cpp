@@ -6,7 +6,8 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// The line y = c + k g through the measured values, and its squared residuals.
+/// The regression line y = c + k g through the measured values, and the sum of its squared
+/// residuals.
 struct ErrorLine {
     ErrorScale scale;
     double squares = std::numeric_limits<double>::infinity();
@@ -33,7 +34,7 @@ ErrorLine line_of(std::span<const double> errors, std::span<const model::Adaptat
         gy += (g - mean_g) * (y - mean_y);
         yy += (y - mean_y) * (y - mean_y);
     });
-    constexpr double kParameters = 4;  // A, B, c, k
+    constexpr double kParameters = 4;  // the parameters A, B, c and k
     if (!(gg > 0) || n <= kParameters) return {};
     ErrorLine out;
     out.scale.effect = gy / gg;
@@ -48,7 +49,7 @@ ErrorLine line_of(std::span<const double> errors, std::span<const model::Adaptat
 std::optional<ErrorScale> scale_of_errors(std::span<const double> errors,
                                           std::span<const model::AdaptationTrial> trials) {
     constexpr int kLeast = 10;
-    constexpr int kSteps = 50;  // of retention and of learning, both from 0 to 1
+    constexpr int kSteps = 50;  // steps of the retention and of the learning rate, both from 0 to 1
     constexpr double kShows = 3.5;
     int measured = 0;
     for (const double error : errors) measured += !std::isnan(error);
@@ -56,7 +57,7 @@ std::optional<ErrorScale> scale_of_errors(std::span<const double> errors,
     ErrorLine best;
     for (int a = 0; a <= kSteps; ++a) {
         for (int b = 0; b <= kSteps; ++b) {
-            // finer near a retention of 1 and near a learning rate of 0, where people's values are
+            // finer near a retention of 1 and a learning rate of 0, where people's values lie
             const model::SingleRate rate{1 - std::pow(static_cast<double>(a) / kSteps, 2),
                                          std::pow(static_cast<double>(b) / kSteps, 2)};
             const ErrorLine line = line_of(errors, trials, model::compensation(rate, trials));

@@ -48,7 +48,7 @@ void EventFinder::say(const frame::Frame& frame, const char* what, std::string d
 }
 
 void EventFinder::add_trial(const frame::Frame& frame) {
-    // a task's trial begins with its first state: before it, the previous trial's feedback is shown
+    // a task's trial begins with its first state; until then, the last trial's feedback is shown
     const bool begun = frame.phase > 0 || frame.task.attempt == 0;
     if (!begun || (frame.trial == trial_ && frame.task.attempt == attempt_)) return;
     trial_ = frame.trial;
@@ -64,7 +64,7 @@ void EventFinder::add_task(const frame::Frame& frame) {
     if (task.marker != 0) say(frame, "marker", number_text(task.marker));
     add_texts(frame);
     add_sounds(frame);
-    if (task.placements.size() > placed_)  // a body held in place is placed anew in each tick
+    if (task.placements.size() > placed_)  // a body held in place is placed again in each tick
         say(frame, "put back", fmt::format("{} bodies", task.placements.size()));
     placed_ = task.placements.size();
     if (task.outcome >= 0) say(frame, "outcome", listed(head_.outcomes, task.outcome));
@@ -95,14 +95,14 @@ void EventFinder::add_texts(const frame::Frame& frame) {
     }
 }
 
-/// Answers are reported when their state ends: until then, they can change.
+/// Answers are reported when their state ends, because they can change until then.
 void EventFinder::add_answers(const frame::Frame& frame) {
     const bool ended = frame.phase != phase_ || frame.task.outcome >= 0;
     const size_t first = head_.variables.size() + head_.levels.size();
     answers_.resize(head_.answers.size(), kUnmeasured);
     for (size_t i = 0; i < answers_.size() && first + i < frame.task.variables.size(); ++i) {
         const double answer = frame.task.variables[first + i].value;
-        if (std::isnan(answer)) answers_[i] = answer;  // the question is asked again
+        if (std::isnan(answer)) answers_[i] = answer;  // the question is being asked again
         if (!ended || std::isnan(answer) || answer == answers_[i]) continue;
         answers_[i] = answer;
         const std::string& name = head_.answers[i];
@@ -153,7 +153,7 @@ bool EventFinder::on_support(const frame::Frame& frame) const {
 }
 
 void EventFinder::add_support(const frame::Frame& frame) {
-    // an object asleep on its support has no contacts in the frame, and does not move
+    // an object asleep on its support has no contacts in the frame and does not move
     if (object_ < 0 || !frame.bodies[static_cast<size_t>(object_)].awake) return;
     const bool supported = on_support(frame);
     if (seen_ && supported_ && !supported) say(frame, "lift-off", name(object_));
@@ -162,7 +162,7 @@ void EventFinder::add_support(const frame::Frame& frame) {
 }
 
 void EventFinder::add_settings(const frame::Frame& frame) {
-    if (!seen_) told_ = last_ = frame;  // the first ticks may be missing
+    if (!seen_) told_ = last_ = frame;  // the first ticks may be missing from the log
     frame::Knobs::visit([&](auto knob, const frame::Knob& is) {
         const auto value = frame.*knob;
         auto& told = told_.*knob;

@@ -18,7 +18,7 @@ void FaultRecord::add(const frame::Frame& frame) {
     if (ended_) return;
     const auto old = [&] { return last_.front().time < frame.time - kBefore; };
     if (!last_.empty() && old()) {
-        // This runs in each tick of a session: the oldest frame's memory is reused.
+        // This runs in each tick of a session, so the memory of the oldest frame is reused.
         last_.splice(last_.end(), last_, last_.begin());
     } else {
         last_.emplace_back();

@@ -1,5 +1,5 @@
-// Records the course of events before a session's faults: the second before force went off, tick by
-// tick, as a readable table. raw.log contains all of it too.
+// Records what happened in the last second before force went off because of a fault, tick by tick,
+// as a readable table. raw.log contains all of this too.
 #pragma once
 
 #include <list>
@@ -13,14 +13,14 @@ namespace dihaptic::analysis {
 
 class FaultRecord {
   public:
-    /// `turning`: the fingers whose devices measure orientation.
+    /// `turning`: names of the fingers whose devices measure orientation.
     explicit FaultRecord(std::vector<std::string> fingers, std::vector<std::string> turning = {})
         : fingers_(std::move(fingers)), turning_(std::move(turning)) {}
 
-    /// Receives the frames in order.
+    /// Adds a frame. Frames must be added in order.
     void add(const frame::Frame& frame);
-    /// Rows from kBefore before each fault to its tick; empty without a fault. A stop by the
-    /// operator is not a fault.
+    /// Returns the rows from kBefore before each fault up to its tick; the table is empty if there
+    /// was no fault. A stop by the operator is not a fault.
     Table table() const;
 
     static constexpr Time kBefore = std::chrono::seconds(1);
@@ -28,9 +28,9 @@ class FaultRecord {
   private:
     std::vector<std::string> fingers_;
     std::vector<std::string> turning_;
-    std::list<frame::Frame> last_;    // without bodies and contacts
-    bool ended_ = false;              // force is off, until the session continues
-    std::list<frame::Frame> faults_;  // frames that led to each fault, one after the other
+    std::list<frame::Frame> last_;    // recent frames, without bodies and contacts
+    bool ended_ = false;              // whether force is off until the session continues
+    std::list<frame::Frame> faults_;  // frames that led to each fault, one fault after the other
 };
 
 }  // namespace dihaptic::analysis

@@ -25,27 +25,28 @@ struct RunningMean {
     double value() const { return count == 0 ? kUnmeasured : sum / count; }
 };
 
-/// The reaches of one condition in a round.
+/// The reaches in one condition of a round.
 struct Direction {
     std::string condition;
     Vec3 along_W = Vec3::Zero();
-    Vec3 axis_W = Vec3::UnitZ();  // axis of the angles
+    Vec3 axis_W = Vec3::UnitZ();  // axis about which the angles are measured
     bool trained = false;
     RunningMean before;  // compensation in baseline trials and in probes before training [deg]
     RunningMean probes;  // compensation in probes after training began [deg]
 };
 
-/// Directions that differ by less are the same, whatever their conditions' names [deg].
+/// Directions that differ by less than this are the same, whatever the names of their conditions
+/// [deg].
 constexpr double kSameDirection = 1;
 
 struct Round {
     std::map<std::string, Direction> directions;  // by key_of()
     RunningMean baseline;                         // compensation [deg]
-    bool trained = false;                         // whether a trial has been perturbed so far
+    bool trained = false;                         // whether any trial has been perturbed so far
 };
 
-/// Unit vector of the reach that a trial demands; `number`: number of the trial in the session,
-/// from 1.
+/// Unit vector in the direction of the reach that a trial asks for. `number`: trial number in the
+/// session, from 1.
 Vec3 direction_of(const std::vector<task::ReachPlan>& reaches, int number) {
     const auto i = static_cast<size_t>(number - 1);
     if (number < 1 || i >= reaches.size()) return Vec3::Constant(kUnmeasured);
@@ -57,7 +58,8 @@ Vec3 axis_of(const std::vector<task::ReachPlan>& reaches, int number) {
     return number < 1 || i >= reaches.size() ? Vec3::Constant(kUnmeasured) : reaches[i].axis_W;
 }
 
-/// A condition may have several directions, if it draws them.
+/// Returns a key for a condition and direction: a condition may have several directions, if they
+/// are drawn.
 std::string key_of(const std::string& condition, const Vec3& along_W) {
     return fmt::format("{} {:.2f} {:.2f} {:.2f}", condition, along_W.x(), along_W.y(), along_W.z());
 }
@@ -90,7 +92,7 @@ std::map<std::string, Round> rounds_of(const rows::TrialFile& trials,
     return rounds;
 }
 
-/// Signed angle from the nearest trained direction [deg].
+/// Signed angle between a direction and the nearest trained direction [deg].
 double angle_from_trained(const Direction& direction, const Round& round) {
     double nearest = kUnmeasured;
     for (const auto& [name, other] : round.directions) {
@@ -104,8 +106,8 @@ double angle_from_trained(const Direction& direction, const Round& round) {
     return nearest * 180 / std::numbers::pi;
 }
 
-/// Mean compensation of the probes, less the baseline of the same direction or, if it has none,
-/// that of all directions.
+/// Returns the mean compensation in the probes minus the baseline of the same direction or, if it
+/// has none, the baseline of all directions.
 double compensation_of(const Direction& direction, const Round& round) {
     const RunningMean& before = direction.before.count > 0 ? direction.before : round.baseline;
     return direction.probes.value() - (before.count > 0 ? before.value() : 0);
@@ -116,7 +118,8 @@ const char* baseline_of(const Direction& direction, const Round& round) {
     return round.baseline.count > 0 ? "all conditions" : "none";
 }
 
-/// Results of a round, by rising angle; empty unless it has probes in untrained directions.
+/// Returns the results of a round, sorted by ascending angle. Empty unless the round has probes in
+/// untrained directions.
 std::vector<Generalisation> generalisation_of(const std::string& name, const Round& round) {
     std::vector<Generalisation> out;
     RunningMean at_trained;

@@ -1,6 +1,6 @@
-// Generalisation: how far learning in one direction of reaching carries over to other directions,
-// measured in trials of untrained conditions in which no error was visible (clamps and catch
-// trials).
+// Measures generalisation, i.e. how far learning in one direction of reaching carries over to other
+// directions. It is measured in trials of untrained conditions in which no error was visible
+// (clamps and catch trials).
 #pragma once
 
 #include <string>
@@ -37,8 +37,8 @@ struct Generalisation {
     }
 };
 
-/// Results by round, then angle; empty if no untrained condition was probed. `trials`: trials.csv;
-/// `reaches`: by trial.
+/// Returns the results ordered by round, then angle. Empty if no untrained condition was probed.
+/// `trials`: contents of trials.csv; `reaches`: one per trial.
 std::vector<Generalisation> find_generalisation(const rows::TrialFile& trials,
                                                 const std::vector<task::ReachPlan>& reaches);
 

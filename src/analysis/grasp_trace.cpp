@@ -18,7 +18,7 @@ Vec3 velocity_at(const frame::BodyFrame& body, const Vec3& p_W) {
     return body.v_WB + body.w_WB.cross(p_W - body.X_WB.p);
 }
 
-/// Adds the contacts of fingers and supports with the object to the sample.
+/// Adds the object's contacts with fingers and with supports to the sample.
 void add_contacts(GraspTrace::Sample& sample, const frame::Frame& frame, int object) {
     const int first_proxy = static_cast<int>(frame.bodies.size());
     const auto body = [&](int i) -> const frame::BodyFrame& {

@@ -11,21 +11,21 @@
 namespace dihaptic::analysis {
 namespace {
 
-constexpr double kRateWindow = 0.062;  // window of the rates [s]
+constexpr double kRateWindow = 0.062;  // window for the rates [s]
 constexpr double kQuiet = 0.1;         // quiet time at the start, before any event [s]
-constexpr double kLeastHeight = 0.01;  // least height of a lift [m]
+constexpr double kLeastHeight = 0.01;  // minimum height of a lift [m]
 constexpr double kRising = 0.01;       // [m/s]
 constexpr double kSinking = -0.02;     // [m/s]
 constexpr double kLoaded = 0.2;        // [N]
 constexpr double kLagMost = 0.1;       // [s]
 constexpr double kSlipSpeed = 5e-3;    // [m/s]
 constexpr double kLeastRate =
-    0.2;  // least threshold, because a window without noise has no SD [N/s]
+    0.2;  // minimum threshold, because a noise-free window has an SD of 0 [N/s]
 constexpr double kBounce =
     0.05;  // a bounce separates a digit from the object for less than this time [s]
-constexpr double kParting = 0.2;  // least time untouched on the support between two lifts [s]
+constexpr double kParting = 0.2;  // minimum time untouched on the support between two lifts [s]
 constexpr double kLoadShare =
-    0.02;  // share of the load at lift-off below which a load counts as none
+    0.02;  // fraction of the load at lift-off below which a load counts as zero
 
 using Signal = std::vector<double>;
 
@@ -44,7 +44,7 @@ std::span<const double> part(const Signal& x, Range range) {
     return std::span(x).subspan(range.first, range.size());
 }
 
-/// Pearson's r of x with y shifted by `lag` samples, over a range of x.
+/// Pearson's r between x and y, with y shifted by `lag` samples, over a range of x.
 double correlation(const Signal& x, const Signal& y, Range range, int lag) {
     double xy = 0;
     double xx = 0;
@@ -68,7 +68,7 @@ double correlation(const Signal& x, const Signal& y, Range range, int lag) {
     return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : kUnmeasured;
 }
 
-/// The attempt's signals, sample by sample.
+/// The signals of an attempt, one value per sample.
 struct Signals {
     explicit Signals(const GraspTrace& trace, const Vec3& gravity) : tick(trace.tick()) {
         const Vec3 down = gravity.norm() > 0 ? Vec3(gravity.normalized()) : Vec3(-Vec3::UnitZ());
@@ -89,13 +89,13 @@ struct Signals {
             height.push_back(-down.dot(s.X_WB.p));
             rise.push_back(-down.dot(s.v_WB));
         }
-        // after missing ticks the object's position is unknown
+        // the object's position is unknown after missing ticks
         const auto known =
             std::find_if(height.begin(), height.end(), [](double h) { return std::isfinite(h); });
         const double rest = known == height.end() ? kUnmeasured : *known;
         for (double& h : height) h -= rest;
     }
-    /// Largest height; NaN if never known.
+    /// Largest height; NaN if the height is never known.
     double top() const {
         double out = kUnmeasured;
         for (const double h : height) out = std::fmax(out, h);
@@ -106,18 +106,18 @@ struct Signals {
 
     double tick;
     Signal grip, load;    // [N]
-    Signal height, rise;  // height above the initial position [m], and its rate [m/s]
-    std::vector<Signal> digit_grip, digit_load;  // by finger [N]
+    Signal height, rise;  // height above the initial position [m], and its rate of change [m/s]
+    std::vector<Signal> digit_grip, digit_load;  // indexed by finger [N]
 };
 
-/// Threshold of a force's rate, from its mean and SD in the quiet time.
+/// Threshold for the rate of a force, from the mean and SD of the rate in the quiet time.
 double threshold(const Signals& signals, const Signal& rate) {
     const auto quiet = std::span(rate).first(std::min(rate.size(), signals.samples(kQuiet)));
     return std::max(kLeastRate, mean(quiet) + 4 * spread(quiet));
 }
 
-/// Sample of a digit's touch. `force` contains all of the digit's samples, or only the first ones.
-/// Nullopt if the digit does not touch.
+/// Returns the sample in which a digit touches the object; nullopt if it never does. `force`
+/// contains all samples of the digit, or only the first ones.
 std::optional<size_t> touch(const Signals& signals, std::span<const double> force,
                             const Signal& rate) {
     const auto largest = std::max_element(force.begin(), force.end());
@@ -130,7 +130,8 @@ std::optional<size_t> touch(const Signals& signals, std::span<const double> forc
     return i;
 }
 
-/// Sample in which a digit releases the object after `replaced`; nullopt if it does not.
+/// Returns the sample after `replaced` in which a digit releases the object; nullopt if it does
+/// not.
 std::optional<size_t> release(const Signals& signals, const Signal& force, const Signal& rate,
                               size_t replaced) {
     const double limit = threshold(signals, rate);
@@ -150,7 +151,8 @@ std::optional<size_t> load_onset(const Signals& signals, const Signal& load, siz
     return i;
 }
 
-/// Finds how often digits slid on the object, when they first did, and the largest slip.
+/// Finds the number of slips of the digits on the object, the time of the first one, and the size
+/// of the largest.
 void find_slips(rows::LiftRow& lift, const GraspTrace& trace, Range range) {
     lift.slip = 0;
     for (size_t f = 0; f < trace.fingers(); ++f) {
@@ -176,7 +178,7 @@ void find_slips(rows::LiftRow& lift, const GraspTrace& trace, Range range) {
     }
 }
 
-/// Coupling of grip and load while the digits loaded the object.
+/// Computes the coupling between grip and load while the digits were loading the object.
 void find_coupling(rows::LiftRow& lift, const Signals& signals, const Signal& grip_rate,
                    const Signal& load_rate, Range loading) {
     if (loading.size() < signals.samples(0.02)) return;
@@ -204,7 +206,8 @@ void find_coupling(rows::LiftRow& lift, const Signals& signals, const Signal& gr
     lift.offset = mean_grip - lift.slope * mean_load;
 }
 
-/// Ratio of load to mean grip, per digit, at which all digits slip: the mean of their coefficients.
+/// Ratio of load to mean grip per digit at which all digits slip, i.e. the mean of the digits'
+/// friction coefficients.
 double friction_of(const GraspTrace::Sample& sample, std::span<const double> friction) {
     double sum = 0;
     int count = 0;
@@ -216,13 +219,13 @@ double friction_of(const GraspTrace::Sample& sample, std::span<const double> fri
     return count > 0 ? sum / count : kUnmeasured;
 }
 
-/// Whether the object presses on a body other than a finger. A sleeping object stands too, although
-/// it has no contacts.
+/// Whether the object presses on a body other than a finger. A sleeping object also stands,
+/// although it has no contacts.
 bool stands(const GraspTrace::Sample& s) {
     return s.on_support || !s.awake;
 }
 
-/// Sample numbers of the events; for a digit's event, one for each digit that shows it.
+/// Sample numbers of the events. A digit event has a number for each digit that shows it.
 struct Events {
     size_t lift_off = 0;
     std::vector<size_t> touches;
@@ -231,8 +234,8 @@ struct Events {
     std::vector<std::optional<size_t>> releases;
 };
 
-/// Range from the first to the last sample in which the object is at half of its top height or
-/// above.
+/// Returns the range from the first to the last sample in which the object is at or above half of
+/// its top height.
 Range high_of(const Signals& signals, double top) {
     const auto high = [&](double h) { return h >= top / 2; };
     const auto first = std::find_if(signals.height.begin(), signals.height.end(), high);
@@ -241,7 +244,7 @@ Range high_of(const Signals& signals, double top) {
             signals.size() - static_cast<size_t>(last - signals.height.rbegin())};
 }
 
-/// Finds events by the rules for data without contacts.
+/// Finds events by the rules for data that have no contacts.
 class ByForce {
   public:
     ByForce(const GraspTrace& trace, const Signals& signals, Range high)
@@ -273,8 +276,8 @@ class ByForce {
     }
 
   private:
-    /// The sample before the object rises fast; or, if it left its support earlier because it was
-    /// lifted slowly, the sample of that moment.
+    /// Returns the sample before the object starts to rise fast or, if the object was lifted slowly
+    /// and left its support earlier, the sample in which it left the support.
     size_t lift_off() const {
         size_t lifted = high_.first;
         while (lifted > 0 && signals_.rise[lifted] > kRising) --lifted;
@@ -289,13 +292,13 @@ class ByForce {
     std::vector<Signal> rates_;
 };
 
-/// Finds events by contact, each at the sample in which it occurs.
+/// Finds events from contacts; each event is at the sample in which it occurs.
 class ByContact {
   public:
     ByContact(const GraspTrace& trace, const Signals& signals, Range high)
         : trace_(trace), signals_(signals), high_(high) {}
 
-    /// Nullopt if the trace does not show the object leaving its support.
+    /// Returns nullopt if the trace does not show the object leaving its support.
     std::optional<Events> find() const {
         Events out;
         out.lift_off = high_.first;
@@ -318,7 +321,7 @@ class ByContact {
   private:
     const GraspTrace::Sample& sample(size_t i) const { return trace_.samples()[i]; }
 
-    /// Sample in which the pressing that lasts until lift-off began.
+    /// Returns the sample in which the digit began to press continuously until lift-off.
     std::optional<size_t> touch(size_t f, size_t lift_off) const {
         std::optional<size_t> began;
         const size_t bounce = signals_.samples(kBounce);
@@ -342,7 +345,7 @@ class ByContact {
     }
 
     std::optional<size_t> release(size_t f, size_t replaced) const {
-        size_t last = replaced;  // last sample in which the digit pressed
+        size_t last = replaced;  // last sample in which the digit pressed on the object
         const size_t bounce = signals_.samples(kBounce);
         for (size_t i = replaced; i < signals_.size(); ++i) {
             if (sample(i).touching[f]) {
@@ -359,7 +362,7 @@ class ByContact {
     Range high_;
 };
 
-/// Finds the events, and stores the rule that found them.
+/// Finds the events, and stores in `lift` the rule by which they were found.
 Events find_events(rows::LiftRow& lift, const GraspTrace& trace, const Signals& signals, Range high,
                    std::optional<rows::EventRule> rule) {
     const auto& samples = trace.samples();
@@ -380,14 +383,14 @@ bool was_paused(const GraspTrace& trace) {
                        [](const GraspTrace::Sample& s) { return s.resumed; });
 }
 
-/// Sample in which lowering of the object starts; not before lift-off.
+/// Returns the sample in which the object starts to be lowered, but not before lift-off.
 size_t lowering_of(const Signals& signals, Range high, size_t lift_off) {
     size_t lowered = high.last - 1;
     while (lowered > lift_off && signals.rise[lowered] < kSinking) --lowered;
     return lowered;
 }
 
-/// Times and durations from touch to lift-off.
+/// Computes the times and durations from touch to lift-off.
 void find_start(rows::LiftRow& lift, const GraspTrace& trace, const Signals& signals,
                 const Events& events) {
     const auto time = [&](size_t i) { return trace.samples()[i].time; };
@@ -400,7 +403,7 @@ void find_start(rows::LiftRow& lift, const GraspTrace& trace, const Signals& sig
     lift.loading = lift.lift_off - time(*last);
 }
 
-/// Peaks of the forces from touch to lowering.
+/// Finds the peaks of the forces from touch to lowering.
 void find_peaks(rows::LiftRow& lift, const GraspTrace& trace, const Signals& signals, Range up) {
     const auto grip = part(signals.grip, up);
     const auto peak = std::max_element(grip.begin(), grip.end());
@@ -411,7 +414,7 @@ void find_peaks(rows::LiftRow& lift, const GraspTrace& trace, const Signals& sig
     lift.peak_load = *std::max_element(load.begin(), load.end());
 }
 
-/// Largest rates of the forces before lift-off, and their coupling.
+/// Finds the largest rates of change of the forces before lift-off, and the coupling of the forces.
 void find_rates(rows::LiftRow& lift, const Signals& signals, const Events& events, size_t touched) {
     const Signal grip_rate = savitzky_golay(signals.grip, signals.tick, kRateWindow, 1);
     const Signal load_rate = savitzky_golay(signals.load, signals.tick, kRateWindow, 1);
@@ -427,7 +430,8 @@ void find_rates(rows::LiftRow& lift, const Signals& signals, const Events& event
     find_coupling(lift, signals, grip_rate, load_rate, {loaded, end});
 }
 
-/// Range before lowering in which forces and height have settled; nullopt if the lift is too short.
+/// Returns the range before lowering in which forces and height have settled; nullopt if the lift
+/// is too short.
 std::optional<Range> hold_of(const Signals& signals, size_t lift_off, size_t lowered) {
     const size_t early = signals.samples(0.6);
     const size_t late = signals.samples(0.2);
@@ -453,8 +457,9 @@ bool is_touched(const GraspTrace& trace, Range range) {
     return false;
 }
 
-/// Movement of the object along the digits that touched it throughout, for the digit with the least
-/// movement. 0 if none touched it throughout, as when it is handed over.
+/// Returns how far the object moved along the digit for which this movement is smallest, out of the
+/// digits that touched the object throughout. Returns 0 if no digit did, as when the object is
+/// handed over.
 double slid_down(const GraspTrace& trace, Range air) {
     std::optional<double> out;
     for (size_t f = 0; f < trace.fingers(); ++f) {
@@ -466,8 +471,8 @@ double slid_down(const GraspTrace& trace, Range air) {
     return out.value_or(0);
 }
 
-/// Finds replacement and release; the lift's mark states what went wrong, or is "complete". `top`:
-/// the object's largest height.
+/// Finds replacement and release. Sets the lift's mark to what went wrong, or to "complete". `top`:
+/// largest height of the object.
 void find_end(rows::LiftRow& lift, const GraspTrace& trace, const Events& events, double top) {
     lift.mark = "not put down";
     if (!events.replacement) return;
@@ -495,14 +500,14 @@ std::vector<Range> lifts_in(const GraspTrace& trace, const Vec3& gravity) {
     const Signals signals(trace, gravity);
     const size_t parting = signals.samples(kParting);
     std::vector<Range> out(1);
-    double floor = kUnmeasured;  // height of the object where it last stood
+    double floor = kUnmeasured;  // height of the object when it last stood
     bool lifted = false;
-    size_t alone = 0;  // samples for which the object has stood untouched
+    size_t alone = 0;  // number of samples for which the object has stood untouched
     for (size_t i = 0; i < signals.size(); ++i) {
         const GraspTrace::Sample& sample = trace.samples()[i];
         alone = stands(sample) && !sample.touched() ? alone + 1 : 0;
         if (stands(sample) && !lifted) floor = signals.height[i];
-        // a pause between two lifts belongs to neither
+        // a pause between two lifts belongs to neither lift
         if (sample.resumed && !lifted && alone > 0) out.back().first = i + 1;
         lifted = lifted || signals.height[i] - floor >= kLeastHeight;
         if (!lifted || alone < parting) continue;

@@ -13,14 +13,14 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// The kind and the size of the perturbation.
+/// The kind of the perturbation and its size.
 std::string kind_and_size(const task::PerturbationSpec& perturbation) {
     std::vector<std::string> out;
     perturbation.each_effect([&](const auto& effect) { say(effect, out); });
     return fmt::format("{}", fmt::join(out, "; "));
 }
 
-/// Description of the perturbation if its learning is not measured; otherwise "".
+/// Returns a description of the perturbation if its learning is not measured, otherwise "".
 std::string what_of(const task::PerturbationSpec& perturbation) {
     std::string loads;
     for (const task::LoadSpec& load : perturbation.all_loads()) {
@@ -48,7 +48,7 @@ task::Task read_frozen_task(const std::string& file) {
     if (!is_there(file)) return {};
     task::Task task;
     try {
-        Diagnostics ignored(UnknownKeys::are_left_out);  // the readable part is sufficient
+        Diagnostics ignored(UnknownKeys::are_left_out);  // the part that is readable is sufficient
         read_fields(task, read_yaml(file), ignored);
     } catch (const Error&) {
         return {};
@@ -64,7 +64,7 @@ std::string column_of_errors(const task::Task& task) {
 Unmeasured unmeasured_perturbations(const task::Task& task) {
     Unmeasured out;
     collect(task.perturbations, out);
-    // and their replacements in rounds and conditions
+    // also list the replacements in rounds and conditions
     for (const auto* list : {&task.rounds, &task.conditions}) {
         for (const task::Condition& condition : *list) collect(condition.perturbations, out);
     }

@@ -9,7 +9,7 @@ namespace dihaptic::analysis {
 namespace {
 
 constexpr double kArm = 0.7;     // reach of an arm [m]
-constexpr double kFastest = 10;  // largest speed of a body that a drive moves on purpose [m/s]
+constexpr double kFastest = 10;  // largest speed at which a drive moves a body on purpose [m/s]
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// Finds what neither a person nor an experimenter can have intended: a simulated hand that moves
-// further than an arm reaches, and a driven body that jumps.
+// Finds movements that neither a person nor an experimenter can have intended: a simulated hand
+// that moves further than an arm can reach, and a driven body that jumps.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,13 @@ namespace dihaptic::analysis {
 
 class Plausibility {
   public:
-    /// `person_simulated`: whether a simulated person moves the hand. `tick` [s].
+    /// `person_simulated`: whether the hand is moved by a simulated person. `tick`: tick period
+    /// [s].
     Plausibility(bool person_simulated, std::vector<std::string> bodies, double tick);
 
-    /// Takes the next frame of the session.
+    /// Adds the next frame of the session.
     void add(const frame::Frame& frame);
-    /// A sentence for each implausible movement, with its size and time.
+    /// Returns a sentence for each implausible movement, with its size and time.
     std::vector<std::string> findings() const;
 
   private:
@@ -27,15 +28,15 @@ class Plausibility {
     bool person_simulated_;
     std::vector<std::string> bodies_;
     double tick_;
-    std::vector<Vec3> began_;   // where the handles were in the first frame [m]
-    std::vector<Vec3> before_;  // where the bodies were in the previous frame [m]
-    int64_t sequence_ = -1;     // sequence number of that frame
+    std::vector<Vec3> began_;   // positions of the handles in the first frame [m]
+    std::vector<Vec3> before_;  // positions of the bodies in the previous frame [m]
+    int64_t sequence_ = -1;     // sequence number of the previous frame
     struct Largest {
         double way = 0;   // [m]
         double time = 0;  // [s]
     };
-    Largest strayed_;  // largest distance of a handle from where it began
-    Largest jumped_;   // largest movement of a driven body in a tick
+    Largest strayed_;  // largest distance of a handle from its first position
+    Largest jumped_;   // largest movement of a driven body within one tick
     size_t jumper_ = 0;
 };
 

@@ -37,8 +37,8 @@ Json dataset(const PsychDs& data, const std::vector<Table::Column>& columns) {
     return out;
 }
 
-/// The columns of all tables, each once, with the description from the first table that has it. A
-/// file next to each table has that table's own descriptions.
+/// Returns the columns of all tables without duplicates, each with the description from the first
+/// table that has the column. A file next to each table has that table's own descriptions.
 std::vector<Table::Column> all_columns(const std::vector<TextTable>& tables) {
     std::vector<Table::Column> out;
     std::set<std::string> known;

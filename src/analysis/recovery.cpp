@@ -17,12 +17,13 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// Whether the file's last line is cut off.
+/// Whether the last line of the file is cut off.
 bool is_cut(const std::string& file) {
     return is_there(file) && !read_bytes(file, kMostTable).ends_with('\n');
 }
 
-/// Rebuilds settings.csv from settings.yaml, with the origins that settings.csv still contains.
+/// Rebuilds settings.csv from settings.yaml, keeping those origins that settings.csv still
+/// contains.
 void mend_settings(const recording::SessionFolder& folder, recording::SessionInfo& info,
                    Diagnostics& diagnostics) {
     frame::Settings settings;
@@ -31,14 +32,14 @@ void mend_settings(const recording::SessionFolder& folder, recording::SessionInf
         read_fields(settings, read_yaml(folder.file("settings.yaml")), unreadable);
         unreadable.throw_if_errors();
     } catch (const Error&) {
-        return;  // the fault is reported with the inputs' checksums
+        return;  // the fault is reported when the checksums of the inputs are checked
     }
     Table was;
     try {
         was = read_settings(folder);
         if (is_cut(folder.file("settings.csv")) && !was.rows.empty()) was.rows.pop_back();
     } catch (const Error&) {
-        was.rows.clear();  // all rows are lost
+        was.rows.clear();  // treat all rows as lost
     }
     Table table = list_fields(settings, {});
     size_t lost = 0;
@@ -59,14 +60,14 @@ void mend_settings(const recording::SessionFolder& folder, recording::SessionInf
     recording::unseal(info, "settings.csv");
 }
 
-/// Whether a YAML text contains a control character, or an escape, which may stand for one: a large
-/// file is parsed only in this case.
+/// Whether a YAML text contains a control character or an escape sequence (which may stand for
+/// one). Large files are parsed only in this case.
 bool may_have_control_characters(const std::string& text) {
     return find_fault(text) || text.find('\\') != std::string::npos;
 }
 
-/// The readable text of a session's file that cannot be read because of its characters; nullopt if
-/// the file has another fault.
+/// Returns the readable text of a session file that cannot be read because of invalid characters;
+/// nullopt if the file has another fault.
 std::optional<std::string> mended_text(const std::string& file) {
     const bool yaml = file.ends_with(".yaml");
     const int64_t most = yaml ? kMostYaml : kMostTable;
@@ -90,8 +91,8 @@ std::optional<std::string> mended_text(const std::string& file) {
     }
 }
 
-/// Copies a file that is to be rebuilt to its name followed by .before, .before-2 and so on,
-/// whichever is free, and returns that name.
+/// Copies a file that is about to be rebuilt to the first free name of the form FILE.before,
+/// FILE.before-2 and so on, and returns that name.
 std::string keep_before(const std::string& file) {
     std::string name = file + ".before";
     for (int n = 2; is_there(name); ++n) name = fmt::format("{}.before-{}", file, n);
@@ -99,8 +100,8 @@ std::string keep_before(const std::string& file) {
     return std::filesystem::path(name).filename().string();
 }
 
-/// The content of session.yaml, or as much as can be known without it; a copy of a file that cannot
-/// be read is kept.
+/// Returns the contents of session.yaml or, if it cannot be read, as much as can be known without
+/// it. A copy of an unreadable file is kept.
 recording::SessionInfo read_or_mend_info(const recording::SessionFolder& folder,
                                          const recording::Setup& setup, Diagnostics& diagnostics) {
     Diagnostics unreadable;
@@ -113,8 +114,8 @@ recording::SessionInfo read_or_mend_info(const recording::SessionFolder& folder,
     return info;
 }
 
-/// Replaces the control characters and broken bytes that versions before 0.3 let into a session's
-/// files. Returns the repaired files, with their previous checksums.
+/// Replaces the control characters and invalid bytes that versions before 0.3 allowed in a
+/// session's files. Returns the repaired files, with their previous checksums.
 std::vector<recording::InputFile> mend_texts(const recording::SessionFolder& folder,
                                              Diagnostics& diagnostics) {
     std::vector<recording::InputFile> out;
@@ -139,7 +140,8 @@ std::vector<recording::InputFile> mend_texts(const recording::SessionFolder& fol
     return out;
 }
 
-/// Gives repaired inputs their new checksums, if they matched the recording before.
+/// Updates the checksums of repaired input files, if the files matched the recording before the
+/// repair.
 void renew(std::vector<recording::InputFile>& inputs,
            const std::vector<recording::InputFile>& before,
            const recording::SessionFolder& folder) {
@@ -162,7 +164,7 @@ Recovery recover_session(const recording::SessionFolder& folder,
     const std::vector<recording::InputFile> before = mend_texts(folder, diagnostics);
     out.info = read_or_mend_info(folder, log.head(), diagnostics);
     renew(out.info.inputs, before, folder);
-    // raw.log is more reliable than a changed session.yaml
+    // raw.log is more reliable than a session.yaml that was changed
     if (!recording::broken_own_seal(folder, out.info, Severity::warning).empty() &&
         !log.head().seed.empty())
         out.info.seed = log.head().seed;

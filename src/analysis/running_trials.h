@@ -1,5 +1,5 @@
-// Reads what has been written of a running session's log, to find the results of its trials: the
-// figures that trials.csv will contain.
+// Reads the part of a running session's log that has been written so far, to find the results of
+// its trials: the figures that trials.csv will contain.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,13 @@ namespace dihaptic::analysis {
 
 class RunningTrials {
   public:
-    /// Throws Error when the folder does not belong to a session with the trials of a task.
+    /// Throws Error when the folder does not contain a session with a task that has trials.
     explicit RunningTrials(const std::string& folder);
 
-    /// Reads the recording since the last call. Throws Error when this fails.
+    /// Reads what has been recorded since the last call. Throws Error when this fails.
     void look();
-    /// A row for each attempt so far; the row of an unfinished attempt is not final.
+    /// Returns a row for each attempt so far; the row of an attempt that has not ended may still
+    /// change.
     Table table() const;
     /// Number of attempts that have ended.
     size_t ended() const;
@@ -27,7 +28,7 @@ class RunningTrials {
     recording::SessionInfo info_;
     std::optional<recording::RawLogReader> log_;
     std::optional<SessionReader> reader_;
-    std::optional<recording::ChunkPlace> last_;  // last chunk read
+    std::optional<recording::ChunkPlace> last_;  // the last chunk that was read
 };
 
 }  // namespace dihaptic::analysis

@@ -16,13 +16,13 @@ std::vector<double> savitzky_golay(std::span<const double> signal, double tick, 
     std::vector<double> out(signal.size(), 0);
     if (count < size) return out;
 
-    // powers of the position in the window, which goes from -1 to 1
+    // columns: powers of the position in the window, which ranges from -1 to 1
     Eigen::MatrixXd powers(size, kCubic);
     for (Eigen::Index i = 0; i < size; ++i) {
         const double u = static_cast<double>(i - half) / static_cast<double>(half);
         for (Eigen::Index p = 0; p < kCubic; ++p) powers(i, p) = std::pow(u, p);
     }
-    // row p: weight of each sample in the cubic's p-th coefficient
+    // row p: weights of the samples in the cubic's p-th coefficient
     const Eigen::MatrixXd coefficients =
         (powers.transpose() * powers).ldlt().solve(powers.transpose());
     const double scale = 1 / (static_cast<double>(half) * tick);

@@ -1,5 +1,6 @@
-// Derivatives of a sampled signal, from the cubic that best fits a window around each sample
-// (Savitzky and Golay 1964). Near the ends, the first or the last whole window is used.
+// Computes derivatives of a sampled signal, using the cubic that best fits a window around each
+// sample (Savitzky and Golay 1964). Near the ends of the signal, the first or the last full window
+// is used.
 #pragma once
 
 #include <span>
@@ -7,9 +8,9 @@
 
 namespace dihaptic::analysis {
 
-/// The derivative of order 0 (the smoothed signal) to 3, in units of the signal over s^order.
-/// `window`: length [s], at least four samples. For a signal shorter than the window, the
-/// derivative is 0.
+/// Returns the derivative of order 0 (the smoothed signal) to 3, in units of the signal over
+/// s^order. `window`: length of the window [s], which must cover at least four samples. If the
+/// signal is shorter than the window, returns 0 for every sample.
 std::vector<double> savitzky_golay(std::span<const double> signal, double tick, double window,
                                    int order);
 

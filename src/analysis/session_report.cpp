@@ -33,16 +33,16 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// Results of reading the log once.
+/// Everything found in one pass over the log.
 struct Reading {
     SessionFigures figures;
     std::vector<rows::EventRow> events;
     Table fault;
-    std::optional<TrialFinder> trials;  ///< if the session has a task
+    std::optional<TrialFinder> trials;  ///< only if the session has a task
     std::optional<MeasureFinder> measures;
     std::optional<CorrectionFinder> corrections;
     std::vector<rows::LiftRow> lifts;
-    std::string why_no_facts;  ///< reason why ObjectFacts are unknown; empty if they are known
+    std::string why_no_facts;  ///< reason why the ObjectFacts are unknown; empty if they are known
 };
 
 rows::PhaseRow figures_of(const GraspTrace& trace, Range range, double weight) {
@@ -60,14 +60,15 @@ rows::PhaseRow figures_of(const GraspTrace& trace, Range range, double weight) {
     bool carried = held && weight > 0;
     for (size_t i = range.first; i < range.last && carried; ++i)
         carried = !trace.samples()[i].on_support;
-    // after damage to the log, the object's pose may be unknown
+    // the object's pose may be unknown after damage to the log
     const bool known = trace.samples()[range.first].X_WB.p.allFinite();
     out.slip = held && known ? trace.slip(range) : kUnmeasured;
     out.weight_felt = carried ? trace.weight_felt(range) / weight : kUnmeasured;
     return out;
 }
 
-/// Facts of the object. Without them, sets `why`: scene.yaml has changed or cannot be read.
+/// Returns what is known about the object. If nothing is known, sets `why` to the reason:
+/// scene.yaml has changed or cannot be read.
 ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& folder,
                      const recording::LogHead& head, std::string& why) {
     if (name.empty()) return {};
@@ -105,8 +106,8 @@ ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& fo
     }
 }
 
-/// Names of the trials' objects: those of their conditions, of their rounds, or `usual`. Empty if
-/// no condition has one.
+/// Returns the name of the object in each trial: the object of the trial's condition or of its
+/// round, or else `usual`. Empty if no condition has an object.
 std::vector<std::string> objects_of_trials(const recording::SessionFolder& folder,
                                            const std::string& usual) {
     const task::Task task = read_frozen_task(folder.file("task.yaml"));
@@ -172,7 +173,7 @@ struct SessionReader::Pass {
         return found == head.bodies.end() ? -1 : static_cast<int>(found - head.bodies.begin());
     }
 
-    /// Selects the object of the trial that starts.
+    /// Selects the object of the trial that is starting.
     void begin_trial() {
         const auto i = static_cast<size_t>(trial - 1);
         if (trial < 1 || i >= objects.size() || objects[i] == object) return;
@@ -191,7 +192,7 @@ struct SessionReader::Pass {
                 episode.finger_names = fmt::format("{}", fmt::join(own, ", "));
                 reading.figures.episodes.push_back(std::move(episode));
             }
-            // a task's phase 0 is between its trials
+            // in a session with a task, phase 0 lies between trials
             if (trace.fingers() > 1 && !(reading.trials && phase == 0)) find_lifts();
         }
         if (reading.measures)
@@ -200,7 +201,8 @@ struct SessionReader::Pass {
         trace.restart();
     }
 
-    /// An attempt at a trial is one lift; without trials, people lift as often as they like.
+    /// Finds the lifts. An attempt at a trial counts as one lift; in a session without trials, a
+    /// person may lift the object any number of times.
     void find_lifts() {
         const auto add = [&](const GraspTrace& of, int number) {
             rows::LiftRow lift = find_lift(of, facts.gravity, facts.finger_friction);
@@ -225,12 +227,12 @@ struct SessionReader::Pass {
     }
 
     void add(const frame::Frame& frame) {
-        // the feedback of a session's last trial still belongs to it
+        // the feedback on the last trial of a session still belongs to that trial
         const bool next_trial = frame.trial != trial || frame.task.attempt != attempt ||
                                 (reading.trials && (phase == 0) != (frame.phase == 0));
         if (frame.phase != phase || next_trial) {
             close_phase();
-            if (next_trial) end_trial();  // a new trace, since objects are put back
+            if (next_trial) end_trial();  // starts a new trace, since objects are put back
             phase = frame.phase;
             attempt = frame.task.attempt;
             trial = frame.trial;
@@ -250,7 +252,7 @@ struct SessionReader::Pass {
         for_each_status(frame.status, [&](Status bit) { ++figures.ticks_with(bit); });
         note_convergence(frame);
         plausibility.add(frame);
-        // logs from before version 0.3 contain no balance
+        // logs written before version 0.3 contain no balance
         if (std::isnan(frame.energy_imbalance)) return;
         figures.energy_imbalance += frame.energy_imbalance;
         figures.momentum_imbalance = std::max(figures.momentum_imbalance, frame.momentum_imbalance);
@@ -288,7 +290,7 @@ struct SessionReader::Pass {
     double tick;
     Reading reading;
     ObjectFacts facts;
-    std::vector<int> objects;  // objects by trial; empty: always the scene's
+    std::vector<int> objects;  // object in each trial; empty if always the scene's object
     std::map<int, ObjectFacts> facts_by_object;
     EventFinder events;
     GraspTrace trace;
@@ -297,7 +299,7 @@ struct SessionReader::Pass {
     int trial = 0;
     int attempt = 0;
     int phase = -1;
-    size_t first = 0;  // first sample of the phase
+    size_t first = 0;  // index of the first sample of the phase
     int missed_in_a_row = 0;
 };
 
@@ -349,9 +351,9 @@ Table trial_table(const SessionFigures& figures, const recording::SessionInfo& i
     return figure_table<rows::PlainTrialRow>(rows);
 }
 
-/// Finds when each event was first seen on the screen.
+/// Finds the time at which each event was first seen on the screen.
 void find_shown(std::vector<rows::EventRow>& events, const recording::Showings& showings) {
-    // a message is seen only in pictures before the next message
+    // a message can only be seen in pictures shown before the next message
     int64_t gone = recording::Showings::kStays;
     for (size_t i = events.size(); i-- > 0;) {
         rows::EventRow& event = events[i];
@@ -362,7 +364,7 @@ void find_shown(std::vector<rows::EventRow>& events, const recording::Showings& 
     }
 }
 
-/// Finds when each sound was heard.
+/// Finds the time at which each sound was heard.
 void find_heard(std::vector<rows::EventRow>& events,
                 const std::vector<recording::Hearing>& hearings) {
     std::map<std::pair<int64_t, std::string>, double> heard;
@@ -375,7 +377,7 @@ void find_heard(std::vector<rows::EventRow>& events,
     }
 }
 
-/// The table of events in NWB's form: intervals, with a start and an end.
+/// Converts the table of events to the form required by NWB: intervals with a start and an end.
 Table as_intervals(const Table& events) {
     Table table;
     table.columns = {{"start_time", "from the session's start", "s"},
@@ -389,13 +391,13 @@ Table as_intervals(const Table& events) {
     return table;
 }
 
-/// Latest time in a session's table [s]; 0 if the table cannot be read. `time`: gives the time of a
-/// row.
+/// Returns the latest time in a session's table [s]; 0 if the table cannot be read. `time`:
+/// function that returns the time of a row.
 template <class Row, class Time>
 double last_time(const std::string& file, Time time) {
     try {
         double last = 0;
-        // a cell without a number is not a time
+        // std::max() ignores the NaN of a cell without a number
         for (const Row& row : rows::RowFile<Row>(file)) last = std::max(last, time(row));
         return last;
     } catch (const Error&) {
@@ -403,8 +405,8 @@ double last_time(const std::string& file, Time time) {
     }
 }
 
-/// Throws Error when existing files, made before the log was damaged, contain more than the log now
-/// yields.
+/// Throws Error when existing files, which were made before the log was damaged, contain more data
+/// than the log now yields.
 void keep_longer_files(const recording::SessionFolder& folder, const SessionFigures& figures,
                        const std::vector<std::string>& damage) {
     std::vector<Problem> problems;
@@ -427,7 +429,7 @@ void keep_longer_files(const recording::SessionFolder& folder, const SessionFigu
         }
     };
     const auto end = [](const auto& row) { return row.end; };
-    // with a task, trials.csv also contains the times of the sessions that this one resumes
+    // with a task, trials.csv also contains times from the sessions that this session resumes
     if (!has_trials(folder))
         check("trials.csv", last_time<rows::TrialHead>(folder.file("trials.csv"), end));
     check("phases.csv", last_time<rows::PhaseRow>(folder.file("phases.csv"), end));
@@ -459,7 +461,8 @@ Table no_settings() {
     return table;
 }
 
-/// The settings; no rows if they cannot be read, so that the rest of a damaged session is not lost.
+/// Reads the settings. Returns no rows if they cannot be read, so that the rest of a damaged
+/// session is not lost.
 Table settings_left(const recording::SessionFolder& folder) {
     try {
         return read_settings(folder);
@@ -499,8 +502,8 @@ std::string SessionFigures::describe_imbalance() const {
 
 namespace {
 
-/// Notes in the session, and thus in its report, how closely its contacts were solved, whether its
-/// objects moved inexplicably, and any implausible movements.
+/// Adds notes to the session, and thus to its report, on how accurately its contacts were solved,
+/// on unexplained movements of its objects, and on implausible movements.
 void note_quality(recording::SessionInfo& info, const SessionFigures& figures) {
     info.convergence = figures.convergence;
     if (figures.ticks_with(kUnbalanced) > 0) add_note(info, figures.describe_imbalance());
@@ -527,7 +530,7 @@ SessionFigures write_tables(const recording::SessionFolder& folder, recording::S
     if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
     if (!conclude) return out;
     recording::seal(folder, info);
-    folder.sync();  // all files are on the disk before the state changes
+    folder.sync();  // all files must be on the disk before the state changes
     folder.write_info(info);
     return out;
 }
@@ -596,7 +599,7 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     try {
         recording::write_nwb(folder, content, part(0.4, 1));
     } catch (const Error&) {
-        // the message of a full disk must not hide that of this error
+        // if the disk is full, a second error must not hide the first
         try {
             write_tables(folder, info, reading, content, events, false);
         } catch (const Error&) {

@@ -55,7 +55,7 @@ double ThresholdTrack::weber_fraction(const model::Psychometric& function) const
 
 namespace {
 
-/// Whether one function describes the answers of both tracks.
+/// Whether a single function describes the answers of both tracks.
 bool belong_together(const ThresholdTrack& a, const ThresholdTrack& b) {
     const bool same_standard =
         a.standard == b.standard || (std::isnan(a.standard) && std::isnan(b.standard));
@@ -65,7 +65,7 @@ bool belong_together(const ThresholdTrack& a, const ThresholdTrack& b) {
            a.model.guess_is_lapse == b.model.guess_is_lapse;
 }
 
-/// All answers of the tracks, in the order of the trials.
+/// Returns a track with all answers of the given tracks, in trial order.
 ThresholdTrack pooled(const std::vector<const ThresholdTrack*>& tracks) {
     ThresholdTrack out = *tracks.front();
     out.kind = "all of these";
@@ -118,7 +118,7 @@ std::vector<ThresholdTrack> threshold_tracks(const rows::TrialFile& trials,
         track.standard = p.standard;
         track.logarithmic = p.logarithmic;
         track.model.sigmoid = p.sigmoid;
-        // recordings before version 0.2 have no such column
+        // recordings from before version 0.2 have no such column
         if (std::isfinite(p.shape)) track.model.shape = p.shape;
         track.model.guess = p.guess;
         track.model.guess_is_lapse = p.guess_is_lapse;
@@ -166,7 +166,7 @@ ThresholdFit fit_threshold(const ThresholdTrack& track) {
     }
     try {
         out.fit = fit_psychometric(counts, track.model);
-    } catch (const Error& e) {  // other tracks may still be fitted
+    } catch (const Error& e) {  // the other tracks may still be fitted
         out.note = "not possible: " + e.problems().front().what;
         return out;
     }

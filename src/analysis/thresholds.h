@@ -1,5 +1,5 @@
-// Computes thresholds from a session's trials.csv and procedures.csv: for each procedure
-// the levels and answers, and the psychometric function that makes the answers most likely.
+// Computes thresholds from a session's trials.csv and procedures.csv. For each procedure, finds the
+// levels and answers, and the psychometric function that makes the answers most likely.
 #pragma once
 
 #include <optional>
@@ -15,55 +15,57 @@ namespace dihaptic::analysis {
 
 struct ThresholdTrack {
     std::string procedure;
-    std::string kind;  ///< staircase, quest, quest_plus, constant
+    std::string kind;  ///< staircase, quest, quest_plus or constant
     std::string perturbation;
-    std::string number;   ///< name of the number that it chooses; empty: the perturbation's share
-    double standard = 0;  ///< standard value of the number; NaN: none
-    int skipped_reversals = 0;      ///< initial reversals, which are left out of their mean
-    bool logarithmic = false;       ///< levels are log10 of shares, or of the number
-    std::vector<Answer> answers;    ///< in order
-    std::vector<int> trials;        ///< trial number of each answer in the session
-    PsychometricFitSettings model;  ///< model that is fitted
+    std::string number;  ///< name of the number that the procedure chooses; empty if it chooses the
+                         ///< perturbation's share
+    double standard = 0;            ///< standard value of the number; NaN if there is none
+    int skipped_reversals = 0;      ///< initial reversals, which are excluded from the mean
+    bool logarithmic = false;       ///< whether levels are log10 of the share or number
+    std::vector<Answer> answers;    ///< answers, in order
+    std::vector<int> trials;        ///< trial number in the session, for each answer
+    PsychometricFitSettings model;  ///< settings of the model that is fitted
 
-    /// The share at a level, or the number, in the unit that its name states.
+    /// Returns the share or number for a level, in the unit that the number's name states.
     double share(double level) const;
-    std::string what() const;  ///< description of the number that the procedure chooses
-    /// The levels of a staircase at which its direction changed, without the skipped ones, as
-    /// shares or numbers; none for other procedures.
+    std::string what() const;  ///< describes the number that the procedure chooses
+    /// The levels at which the direction of a staircase changed, as shares or numbers, without the
+    /// skipped reversals. Empty for other procedures.
     std::vector<double> reversals() const;
-    /// The Weber fraction of a fitted function: the just noticeable difference over the standard;
-    /// NaN without a standard. With a guess rate of 0.25 or more that is the threshold's distance
-    /// from the standard; otherwise half the distance between the function's quartiles, since its
-    /// threshold is the point of subjective equality.
+    /// The Weber fraction of a fitted function: the just noticeable difference divided by the
+    /// standard; NaN without a standard. With a guess rate of 0.25 or more, the just noticeable
+    /// difference is the distance between the threshold and the standard. Otherwise it is half the
+    /// distance between the quartiles of the function, since the threshold is then the point of
+    /// subjective equality.
     double weber_fraction(const model::Psychometric& function) const;
 };
 
-/// One track per procedure; then one for each number, or share of a perturbation, that several
-/// procedures of one model chose, with all of their answers. Answers that are neither yes nor no,
-/// and trials without a procedure, are left out.
+/// Returns one track per procedure. If several procedures with the same model chose the same
+/// number, or the share of the same perturbation, a track with all of their answers follows.
+/// Answers that are neither yes nor no, and trials without a procedure, are left out.
 std::vector<ThresholdTrack> threshold_tracks(const rows::TrialFile& trials,
                                              const rows::ProcedureFile& procedures);
 
-/// Adds to a table's row what a psychophysicist reads from a fitted function and from a staircase.
+/// Adds the usual psychophysical figures of a fitted function and of a staircase to a table row.
 void list_psychophysics(const ThresholdTrack& track, const model::Psychometric& function,
                         FigureLister& row);
 
-/// The fit of a track, or the reason why there is none.
+/// The fit of a track, or the reason why there is no fit.
 struct ThresholdFit {
     std::optional<PsychometricFit> fit;
-    /// The reason for a missing fit, or a remark that its threshold lies outside the levels shown;
-    /// empty if there is no remark.
+    /// The reason why there is no fit, or a remark that the threshold lies outside the range of
+    /// levels shown; otherwise empty.
     std::string note;
-    bool outside = false;  ///< the threshold lies outside the levels shown
+    bool outside = false;  ///< whether the threshold lies outside the range of levels shown
 
-    /// The fitted function; without a fit its parameters are NaN.
+    /// The fitted function; if there is no fit, its parameters are NaN.
     model::Psychometric function() const;
 };
-/// There is no fit for fewer than ten answers, for a single level, or for levels for which the
-/// sigmoid is undefined.
+/// Fits a track. There is no fit if there are fewer than ten answers, if there is only one level,
+/// or if the sigmoid is undefined at some of the levels.
 ThresholdFit fit_threshold(const ThresholdTrack& track);
 PsychometricIntervals threshold_intervals(const ThresholdTrack& track, const PsychometricFit& fit);
-/// The quality of the fit, from 500 resamples.
+/// The goodness of fit (see fits/psychometric_fit.h), from 500 resamples.
 double deviance_share(const ThresholdTrack& track, const PsychometricFit& fit, uint64_t seed);
 
 }  // namespace dihaptic::analysis

@@ -23,7 +23,7 @@ constexpr const char* kBefore = "trials-before.csv";
 constexpr double kPerDegree = 1 / kDegree;  // factor from radians to degrees
 constexpr double kPerMm = 1000;             // factor from m to mm
 
-/// Description of a column of the list.
+/// Description of a column that comes from trial-list.csv.
 std::string listed_as(const std::string& name) {
     for (const Table::Column& c : list_figures(rows::AskedRow{}).columns) {
         if (c.name == name) return c.description;
@@ -31,7 +31,8 @@ std::string listed_as(const std::string& name) {
     return "column of trial-list.csv";
 }
 
-/// Index of the list's column; its number of columns if there is no such column.
+/// Returns the index of the column in the list, or the number of columns if there is no such
+/// column.
 size_t column(const std::vector<std::vector<std::string>>& list, const std::string& name) {
     return static_cast<size_t>(std::find(list[0].begin(), list[0].end(), name) - list[0].begin());
 }
@@ -41,14 +42,14 @@ void append(std::vector<T>& list, const More& more) {
     list.insert(list.end(), more.begin(), more.end());
 }
 
-/// A number only if the text is exactly how we would write that number; a block called 007 or nan
-/// stays text.
+/// Converts a text to a number only if it is exactly as this program would write the number; a
+/// block called 007 or nan remains text.
 Table::Cell cell(const std::string& text) {
     const auto value = any_number(text);
     return value && to_csv(Table::Cell(*value)) == text ? Table::Cell(*value) : Table::Cell(text);
 }
 
-/// Throws Error when the list gives the table columns that cannot be distinguished, or that
+/// Throws Error when the list would give the table columns that have the same name or that
 /// session.nwb cannot contain.
 void check_columns(const Table& table, const std::string& list) {
     std::set<std::string> names;
@@ -62,7 +63,7 @@ void check_columns(const Table& table, const std::string& list) {
     }
 }
 
-/// Cells with the numbers' values in the trial's first and last tick.
+/// Cells with the values of the numbers in the first and last tick of the trial.
 std::vector<Table::Cell> cells_of_numbers(const recording::SessionInfo& info,
                                           const std::vector<frame::VariableFrame>& first,
                                           const std::vector<frame::VariableFrame>& last,
@@ -131,7 +132,7 @@ TrialFinder::TrialFinder(const recording::SessionFolder& folder,
 
 void TrialFinder::add(const frame::Frame& frame) {
     if (frame.trial < 1) return;
-    if (frame.phase == 0) {  // between trials, where variables may be set
+    if (frame.phase == 0) {  // variables may be set between trials
         if (!rows_.empty()) rows_.back().decided = frame.task.variables;
         return;
     }
@@ -149,7 +150,7 @@ void TrialFinder::add(const frame::Frame& frame) {
     row.end = seconds(frame.time);
     row.last = frame.task.variables;
     if (frame.task.outcome >= 0) row.outcome = frame.task.outcome;
-    // kept, since the perturbation may act in only part of the trial
+    // keeps the last nonzero share, since a perturbation may act in only part of the trial
     if (frame.task.share != 0) row.share = frame.task.share;
     rows::TrialMeasures& m = row.measures;
     m.peak_grip = std::fmax(m.peak_grip, frame.grip_force);
@@ -177,9 +178,9 @@ void TrialFinder::measure_angle(Row& row, const Reach& reach, const frame::Frame
     row.measures.shown_angle_deg = kPerDegree * angle_about(reach.plan.axis_W, way, shown);
 }
 
-/// Extents are measured from the handle's starting position, since a finger that holds an object is
-/// not at the hand's middle. The wanted extent is the remaining part of the path from region to
-/// region.
+/// Extents are measured from the starting position of the handle, because a finger that holds an
+/// object is not at the middle of the hand. The wanted extent is the part of the path between the
+/// regions that is still to be covered.
 void TrialFinder::measure_extent(Row& row, const Reach& reach, const frame::Frame& frame) const {
     const frame::FingerFrame& finger = frame.fingers[reach.finger];
     const Vec3 shown_W = frame::displayed_handle(frame, reach.finger).p;
@@ -199,7 +200,7 @@ void TrialFinder::measure_extent(Row& row, const Reach& reach, const frame::Fram
 Table TrialFinder::table(const recording::SessionInfo& info) const {
     Table table;
     add_columns<rows::TrialHead>(table);
-    // the columns about how a trial is measured are not repeated
+    // the columns that say how a trial is measured are not repeated
     const size_t listed =
         std::min(column(list_, task::kFirstReachColumn), column(list_, task::kFirstMovementColumn));
     for (size_t k = 0; k < listed; ++k)
@@ -214,7 +215,7 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
         const auto i = static_cast<size_t>(r.trial);
         for (size_t k = 0; k < listed; ++k) {
             const bool known = i < list_.size() && k < list_[i].size();
-            // a procedure's share is only known once the trial is done
+            // the share chosen by a procedure is known only once the trial is done
             if (known && list_[0][k] == "share" && list_[i][k].empty()) {
                 row.emplace_back(r.share);
             } else {
@@ -272,12 +273,12 @@ Table with_earlier(const Table& own, const recording::SessionFolder& folder) {
                     "Replace it with the trials.csv of the session that this one resumes.");
     }
     Table table{own.columns, {}};
-    // an earlier version's table may lack a column, or have it in another position
+    // the table of an earlier version may lack a column, or have it in another position
     std::vector<size_t> places;
     for (const Table::Column& c : own.columns) places.push_back(column(before, c.name));
     for (size_t i = 1; i < before.size(); ++i) {
         if (before[i].size() != before[0].size()) continue;
-        if (before[i][outcome] == rows::kInterrupted) continue;  // repeated here
+        if (before[i][outcome] == rows::kInterrupted) continue;  // repeated in this session
         std::vector<Table::Cell>& row = table.rows.emplace_back();
         for (const size_t place : places)
             row.push_back(cell(place < before[i].size() ? before[i][place] : ""));

@@ -1,5 +1,5 @@
-// Finds a task's trials in the frames: one row per attempt, with the trial's entries in the frozen
-// list of trials (trial-list.csv).
+// Finds the trials of a task in the frames. Makes one row per attempt, which includes the trial's
+// entries in the frozen list of trials (trial-list.csv).
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,12 @@
 
 namespace dihaptic::analysis {
 
-/// Finds the end of a movement's first stroke along a line: when its speed has fallen to a fifth of
-/// its peak. The least peak is above noise and tremor.
+/// Finds the end of a movement's first stroke along a line, i.e. when the speed has fallen to a
+/// fifth of its peak. The minimum peak speed is above noise and tremor.
 class FirstStroke {
   public:
-    /// `speed`: along the line [m/s]. Returns whether the stroke ends here.
+    /// Adds a sample. `speed`: speed along the line [m/s]. Returns whether the stroke ends with
+    /// this sample.
     bool add(double speed) noexcept {
         peak_ = std::max(peak_, speed);
         if (over_ || peak_ < kLeastPeak || speed > kEnd * peak_) return false;
@@ -34,8 +35,8 @@ class FirstStroke {
     bool over_ = false;
 };
 
-/// Signed angle about an axis from one direction to another, both projected along the axis [rad];
-/// NaN if one of them lies along it.
+/// Signed angle about an axis from one direction to another, both projected onto the plane
+/// perpendicular to the axis [rad]; NaN if either direction is parallel to the axis.
 double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to);
 
 class TrialFinder {
@@ -55,9 +56,10 @@ class TrialFinder {
         double start = 0;  ///< [s]
         double end = 0;
         double share = 0;                             ///< share of the perturbation
-        std::vector<frame::VariableFrame> variables;  ///< values at its start [SI]
-        std::vector<frame::VariableFrame> last;       ///< values in its last tick
-        /// Values at the next trial's start, which differ if a program sets them after the trial.
+        std::vector<frame::VariableFrame> variables;  ///< values at the start of the trial [SI]
+        std::vector<frame::VariableFrame> last;       ///< values in the last tick of the trial
+        /// Values at the start of the next trial. These differ from the values in the last tick if
+        /// a program sets them after the trial.
         std::vector<frame::VariableFrame> decided;
         rows::TrialMeasures measures;
         FirstStroke stroke;
@@ -73,32 +75,34 @@ class TrialFinder {
     void measure_extent(Row& row, const Reach& reach, const frame::Frame& frame) const;
 
     std::string file_;                            // trial-list.csv
-    std::vector<std::vector<std::string>> list_;  // lines of trial-list.csv, with the header
-    std::vector<Reach> reaches_;                  // by trial; empty if none is measured
+    std::vector<std::vector<std::string>> list_;  // lines of trial-list.csv, including the header
+    std::vector<Reach> reaches_;                  // one per trial; empty if no reach is measured
     std::vector<Row> rows_;
 };
 
-/// Number of the last of the sessions that this one resumes; 0 if it resumes none.
+/// Number of the last of the sessions that this session resumes; 0 if it resumes none.
 int sessions_before(const recording::SessionFolder& folder);
-/// Numbers a session after those that it resumes.
+/// Numbers a session's trials after those of the sessions that it resumes.
 void number_session(Table& own, const recording::SessionFolder& folder);
-/// Inserts the finished trials of the sessions that this one resumes before its own.
+/// Inserts the finished trials of the sessions that this session resumes before the session's own
+/// trials.
 Table with_earlier(const Table& own, const recording::SessionFolder& folder);
 
-/// The column of a variable, of a level of a procedure or of an answer.
+/// The column of a variable, of the level of a procedure, or of an answer.
 struct NumberColumn : Table::Column {
-    bool known_before = true;  ///< whether its value is known before the trial
+    bool known_before = true;  ///< whether the value is known before the trial
 };
-/// These columns of a session, in the order of trials.csv.
+/// Returns the columns of this kind in a session, in the order of trials.csv.
 std::vector<NumberColumn> columns_of_numbers(const recording::SessionInfo& info);
 
-/// Column of trials.csv in a task for two.
+/// Column of trials.csv in a task for two people.
 inline const Table::Column kPartnerColumn{"partner", "second participant of a task for two"};
 
-/// Columns of trials.csv with their descriptions, with a task or without.
+/// Returns the columns of trials.csv with their descriptions, whether or not the session has a
+/// task.
 std::vector<Table::Column> trial_columns();
 
-/// Whether the session has a task's trials.
+/// Whether the session has a task with trials.
 bool has_trials(const recording::SessionFolder& folder);
 
 }  // namespace dihaptic::analysis

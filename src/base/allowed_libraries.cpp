@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file itself, with all links resolved; "" if it does not exist.
+/// The path of the file itself, with all links resolved; "" if the file does not exist.
 fs::path file_itself(const std::string& path) {
     std::error_code failed;
     const fs::path out = fs::canonical(path, failed);

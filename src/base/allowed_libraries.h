@@ -1,5 +1,5 @@
-// The libraries that a user allows this program to load. Files that come
-// from other people may name libraries too, and loading a library runs its code.
+// The libraries that a user allows this program to load. Files from other people may also name
+// libraries, and loading a library runs its code.
 //
 // The list is a YAML file that belongs to the user, $XDG_CONFIG_HOME/dihaptic/libraries.yaml or
 // ~/.config/dihaptic/libraries.yaml:
@@ -11,14 +11,14 @@
 
 namespace dihaptic {
 
-/// Path of the list; "" if the user has no home.
+/// Path of the file that contains the list; "" if the user has no home directory.
 std::string allowed_libraries_file();
 
-/// Whether the loader itself looks for a library with this name in the system's folders, which it
-/// does if the name has no folder.
+/// Whether the loader searches the system's folders for a library with this name, which it does if
+/// the name contains no folder.
 bool is_system_library(const std::string& name);
 
-/// Whether the list contains this file. Throws Error when the list cannot be read.
+/// Whether the list contains this file. Throws Error if the list cannot be read.
 bool is_allowed_library(const std::string& path);
 
 }  // namespace dihaptic

@@ -1,4 +1,4 @@
-// Checksums of files (CRC-32, in hexadecimal), which reveal damage and mix-ups. They do not prevent
+// Checksums of files (CRC-32, in hexadecimal). They reveal damage and mix-ups, but do not prevent
 // forgery.
 #pragma once
 

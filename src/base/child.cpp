@@ -44,7 +44,8 @@ Child::~Child() {
     wait();
 }
 
-/// Whether the child has ended. From then on another program may get its process number.
+/// Returns whether the child has ended. Once it has, its process number may be given to another
+/// program.
 bool Child::reap(int options) noexcept {
     if (process_ == 0) return true;
     int status = 0;

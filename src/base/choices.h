@@ -1,8 +1,8 @@
-// The names that are allowed at some place in a file, for a problem that lists them
+// The names that are allowed at a given place in a file, listed in a problem report
 // (Problem::choices).
 //
-// A file may contain thousands of names and thousands of mistakes. A problem therefore shows only
-// some names, and suggestions are worked out for the first hundred problems only.
+// A file may contain thousands of names and thousands of mistakes. A problem therefore lists only
+// some of the names, and only the first hundred problems come with suggestions.
 #pragma once
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ std::vector<Choice> choices_of(const Names& names) {
     return out;
 }
 
-/// "a, b, c", or the first few if there are many.
+/// The names separated by commas: "a, b, c", or only the first few if there are many.
 inline std::string listed(const std::vector<std::string>& names) {
     std::string out;
     for (size_t i = 0; i < std::min(names.size(), kMostListed); ++i)

@@ -13,7 +13,7 @@ constexpr double seconds(Time time) {
     return std::chrono::duration<double>(time).count();
 }
 
-/// A number of seconds as the nearest whole nanosecond.
+/// A number of seconds, rounded to the nearest whole nanosecond.
 constexpr Time from_seconds(double s) {
     return Time(static_cast<Time::rep>(s * 1e9 + (s < 0 ? -0.5 : 0.5)));
 }

@@ -25,7 +25,7 @@ namespace {
 
 constexpr int kOutOfMemory = 3;  // exit status
 
-/// A file in memory, which needs neither a name nor a folder.
+/// A file that exists only in memory, without a name or a folder.
 class MemoryFile {
   public:
     explicit MemoryFile(const std::string& text)
@@ -62,7 +62,8 @@ class MemoryFile {
 bool limit(pid_t process, const CompanionLimits& limits) {
     const auto set = [&](__rlimit_resource which, uint64_t soft, uint64_t hard) {
         rlimit now{};
-        if (prlimit(process, which, nullptr, &now) != 0) return errno == ESRCH;  // it has ended
+        // the process is gone
+        if (prlimit(process, which, nullptr, &now) != 0) return errno == ESRCH;
         // a process whose hard limit is already lower cannot be given a higher one
         const rlimit value{std::min(soft, now.rlim_max), std::min(hard, now.rlim_max)};
         return prlimit(process, which, &value, nullptr) == 0 || errno == ESRCH;
@@ -99,7 +100,7 @@ bool wait_for(pid_t process, const CompanionTask& task) {
 }
 
 struct Ended {
-    int status = 1 << 8;  // an unknown status is treated as a refusal of the input
+    int status = 1 << 8;  // an unknown status is treated as if the companion had refused its input
     bool late = false;
 };
 
@@ -126,7 +127,7 @@ Ended run(const CompanionTask& task, const std::string& path, int in, int out) {
                errno == EINTR)
             continue;
     }
-    // reaped only here: from this point on, its PID may be reused
+    // the process is reaped only here, because its PID may be reused from this point on
     if (const auto status = child.wait()) ended.status = *status;
     if (!limited) throw failed(EPERM);
     return ended;

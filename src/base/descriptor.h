@@ -1,4 +1,4 @@
-// A descriptor owns an open file, socket or the like, and closes it.
+// A descriptor owns an open file, socket or the like, and closes it on destruction.
 #pragma once
 
 #include <unistd.h>
@@ -11,7 +11,8 @@ namespace dihaptic {
 class Descriptor {
   public:
     Descriptor() = default;
-    /// `number`: as returned by open(), socket() and the like; negative: nothing is open.
+    /// `number` is the value returned by open(), socket() and the like; if it is negative, nothing
+    /// is open.
     explicit Descriptor(int number) noexcept : number_(number) {}
     ~Descriptor() { close(); }
     Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
@@ -25,7 +26,8 @@ class Descriptor {
     explicit operator bool() const noexcept { return number_ >= 0; }
     /// The number; negative if nothing is open.
     int get() const noexcept { return number_; }
-    /// Leaves errno as it is: a failure is often reported after its file has been closed.
+    /// Closes the file and leaves errno unchanged, because a failure is often reported after its
+    /// file has been closed.
     void close() noexcept {
         if (number_ < 0) return;
         const int why = errno;

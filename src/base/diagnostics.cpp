@@ -30,14 +30,14 @@ std::string Problem::text() const {
     end_sentence(out);
     if (!remedy.empty()) out += " " + remedy;
     end_sentence(out);
-    // names come from files and may contain characters that would move a terminal's cursor
+    // names come from files and may contain characters that move a terminal's cursor
     return mended(out, Lines::one);
 }
 
 namespace {
 
-/// The line of the key, with or without its unit, if `place` is the place of a mapping that
-/// contains the key.
+/// The line of the key, which may be followed by a unit, if `place` is the place of a mapping that
+/// contains the key; otherwise `place` itself.
 Place place_of(const Place& place, const std::string& key) {
     Place out{place.file, place.line};
     if (!place.keys || key.empty()) return out;
@@ -78,12 +78,13 @@ Error::Error(const Place& place, std::string key, std::string what, std::string 
 
 namespace {
 
-/// Nobody corrects more problems than this at a time, and a file may contain a hundred thousand.
+/// The limit on reported problems: nobody corrects more at a time, and a file may contain a hundred
+/// thousand.
 constexpr size_t kMostErrors = 200;
 constexpr size_t kMostWarnings = 1000;
 constexpr const char* kMore = "there are more problems than those above";
 
-/// Whether further problems are left out.
+/// Whether the list is full, so that further problems are left out.
 bool is_full(const std::vector<Problem>& problems) {
     return !problems.empty() && problems.back().what == kMore;
 }
@@ -146,7 +147,7 @@ void Diagnostics::throw_if_errors() const {
 
 namespace {
 
-/// Levenshtein distance, computed in one row of the table.
+/// Levenshtein distance, computed with a single row of the table.
 size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), size_t{0});

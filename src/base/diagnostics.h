@@ -1,5 +1,5 @@
-// Problems in an input are reported so that its author can correct them: file, line, key, the
-// mistake, and the remedy. Readers collect every problem of a file before they give up.
+// Problems in an input are reported with all that its author needs to correct them: file, line,
+// key, mistake and remedy. Readers collect all the problems in a file before they give up.
 #pragma once
 
 #include <map>
@@ -15,15 +15,15 @@ enum class Severity { warning, error };
 /// Where a value was written. An empty file means that it came from the program itself.
 struct Place {
     std::string file;
-    int line = 0;  ///< from 1; 0: the file as a whole
-    /// For a mapping: the lines of its keys, at which problems with the keys are reported.
+    int line = 0;  ///< counted from 1; 0 stands for the file as a whole
+    /// For a mapping: the line of each of its keys, where problems with that key are reported.
     std::shared_ptr<const std::map<std::string, int>> keys = nullptr;
 };
 
-/// A word that is allowed at some place in a file.
+/// A word that is allowed at a given place in a file.
 struct Choice {
     std::string word;
-    std::string what;  ///< a sentence about it; may be empty
+    std::string what;  ///< a sentence about the word; may be empty
 };
 
 struct Problem {
@@ -31,15 +31,16 @@ struct Problem {
     Place place;
     std::string key;     ///< the key or column that the problem is about; may be empty
     std::string what;    ///< the mistake
-    std::string remedy;  ///< how to correct it
-    /// For an unknown key or word: the known ones that have not been given yet.
+    std::string remedy;  ///< how to correct the problem
+    /// For an unknown key or word: the known ones that may still be given.
     std::vector<Choice> choices = {};
 
-    /// "file:line: error: key: what. remedy", without the parts that are empty.
+    /// The problem in the form "file:line: error: key: what. remedy", without the parts that are
+    /// empty.
     std::string text() const;
 };
 
-/// Thrown during set-up, never by the tick. what() lists its problems, one a line.
+/// Thrown during set-up, but never during a tick. what() lists the problems, one per line.
 class Error : public std::runtime_error {
   public:
     explicit Error(std::vector<Problem> problems);
@@ -53,8 +54,8 @@ class Error : public std::runtime_error {
     std::vector<Problem> problems_;
 };
 
-/// In files that people write, an unknown key is a mistake. In files that another version of this
-/// program wrote, it may be a key that this version lacks.
+/// How unknown keys are treated. In files that people write, an unknown key is a mistake. In files
+/// that another version of this program wrote, it may be a key that only that version has.
 enum class UnknownKeys { are_errors, are_left_out };
 
 /// Collects problems while an input is read.
@@ -72,7 +73,7 @@ class Diagnostics {
 
     const std::vector<Problem>& problems() const { return problems_; }
     bool has_errors() const;
-    /// Throws Error with all problems when one of them is an error.
+    /// Throws Error with all the problems if at least one of them is an error.
     void throw_if_errors() const;
 
   private:
@@ -80,7 +81,8 @@ class Diagnostics {
     std::vector<Problem> problems_;
 };
 
-/// The candidate nearest to `word` by edit distance, or "" if none is near enough to be suggested.
+/// The candidate with the smallest edit distance to `word`, or "" if no candidate is near enough to
+/// be suggested.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace dihaptic

@@ -23,7 +23,7 @@ void sync_to_disk(int descriptor, const std::string& name) {
 
 void sync_to_disk(const std::string& name) {
     const Descriptor descriptor(::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-    if (!descriptor) return;  // a file that cannot be read is not one of ours
+    if (!descriptor) return;  // a file that cannot be read was not written by this program
     sync_to_disk(descriptor.get(), name);
 }
 

@@ -11,9 +11,9 @@
 //         }
 //     };
 //
-// Reading (FieldReader), writing (FieldWriter) and everything else that needs names, units and
-// bounds are visitors. An enum lists the names of its values once, in order, for argument-dependent
-// lookup:
+// Readers (FieldReader), writers (FieldWriter) and everything else that needs names, units and
+// bounds are implemented as visitors. An enum lists the names of its values once, in their order,
+// in a function that is found by argument-dependent lookup:
 //
 //     constexpr auto enum_names(Shape) { return std::array{"box", "sphere"}; }
 //
@@ -39,11 +39,11 @@ struct Field {
     Quantity quantity = Quantity::none;
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
-    bool above_min = false;  ///< the minimum itself is not allowed
+    bool above_min = false;  ///< whether the minimum itself is excluded
     bool is_required = false;
     Tighter tighter = Tighter::none;
-    const char* old_name = nullptr;  ///< name in older files
-    std::string_view what = {};      ///< a sentence for docs/reference.md
+    const char* old_name = nullptr;  ///< the field's name in older files
+    std::string_view what = {};      ///< a sentence that describes the field in docs/reference.md
 
     static constexpr Field number() { return {}; }
     static constexpr Field text() { return {}; }
@@ -66,16 +66,16 @@ struct Field {
         f.max = high;
         return f;
     }
-    /// Both bounds are included. Bounds chosen for a tabletop catch a mistaken unit, which would
-    /// otherwise show up as a simulation that diverges.
+    /// A range that includes both bounds. The bounds are chosen for a tabletop, so they reveal a
+    /// mistaken unit, which would otherwise show up as a diverging simulation.
     constexpr Field within(double low, double high) const { return at_least(low).at_most(high); }
     constexpr Field tighter_when(Tighter way) const {
         Field f = *this;
         f.tighter = way;
         return f;
     }
-    /// The field was renamed. A file with the old name is still read, with a warning that gives the
-    /// new one.
+    /// Gives the field's former name. A file with that name can still be read, with a warning that
+    /// states the new name.
     constexpr Field formerly(const char* name) const {
         Field f = *this;
         f.old_name = name;
@@ -93,17 +93,18 @@ struct Field {
     }
 };
 
-/// A field with only a description.
+/// A field that has only a description.
 constexpr Field says(std::string_view sentence) {
     return Field{}.says(sentence);
 }
 
-/// The texts of a field that accepts a single text or a list.
+/// The texts in a field that accepts either a single text or a list of texts.
 struct Texts : std::vector<std::string> {
     using std::vector<std::string>::vector;
 };
 
-/// A former name of an enum's value, which a file may still contain. Such an enum has
+/// A former name of an enum value, which files may still contain. An enum with a former name
+/// defines
 ///
 ///     constexpr OldName old_name(Shape) { return {"cube", "Write box."}; }
 struct OldName {
@@ -116,8 +117,8 @@ concept NamedEnum = std::is_enum_v<E> && requires(E e) {
     enum_names(e);
 };
 
-/// A struct that lists its fields for visitors of type V. Eigen's matrices, which have
-/// a visit() of their own, are excluded.
+/// A struct that lists its fields for visitors of type V. Eigen's matrices are excluded because
+/// they have a visit() of their own.
 template <class Struct, class V>
 concept Described = !requires {
     Struct::RowsAtCompileTime;
@@ -126,12 +127,12 @@ concept Described = !requires {
     s.visit(v);
 };
 
-/// The name of an enum's value in files and tables.
+/// The name of an enum value, as used in files and tables.
 template <NamedEnum E>
 constexpr std::string_view enum_name(E value) {
     return enum_names(value)[static_cast<size_t>(value)];
 }
-/// The value with this name; nullopt if there is none.
+/// The enum value with this name; nullopt if there is none.
 template <NamedEnum E>
 constexpr std::optional<E> enum_named(std::string_view name) {
     constexpr auto names = enum_names(E{});

@@ -38,7 +38,7 @@ bool is_too_low(const Field& field, double si) {
     return field.above_min ? si <= field.min : si < field.min;
 }
 
-/// The bounds that a value violates, in words and in the unit in which the value was given.
+/// The bounds that a value violates, in words and in the unit in which the value was written.
 std::string bounds_of(const Field& field, double si, double to_si) {
     const bool only_positive = field.above_min && field.min == 0 && std::isinf(field.max);
     const bool from_zero = field.min > 0 || field.above_min;
@@ -109,7 +109,7 @@ FieldReader::Given FieldReader::take(std::string_view name, const Field& field) 
         given = {node, keys[i], all.empty() ? 1.0 : all[i].si};
     }
     if (field.old_name != nullptr) given = take_old(name, field, given);
-    // a key with a wrong unit, or with none, does not count as missing: finish() reports it
+    // finish() reports a key with a wrong or missing unit, so it does not count as missing
     const bool misspelt = place_of(name).line != mapping_.place.line;
     if (given.node == nullptr && field.is_required && !misspelt) {
         diagnostics_.error(mapping_.place, std::string(name), "is missing",

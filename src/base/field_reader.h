@@ -1,5 +1,5 @@
-// Reads configuration structs (base/field.h) from YAML, and reports all mistakes in the
-// YAML: unknown keys, wrong units, wrong types, values out of bounds, missing fields.
+// Reads configuration structs (base/field.h) from YAML, and reports all mistakes in it: unknown
+// keys, wrong units, wrong types, values out of bounds, and missing fields.
 #pragma once
 
 #include <map>
@@ -20,11 +20,13 @@ namespace dihaptic {
 /// line".
 using Origins = std::map<std::string, std::string>;
 
-/// Visitor that fills one struct from one mapping. A field that the mapping lacks keeps its value,
-/// so a later file overrides an earlier one when both are read into the same struct in turn.
+/// Visitor that fills one struct from one mapping. A field that is missing from the mapping keeps
+/// its value, so if two files are read into the same struct, the later file overrides the earlier
+/// one.
 class FieldReader {
   public:
-    /// `path` is the struct's own path in `origins` ("" for the outermost); `origins` may be null.
+    /// `path` is the path of the struct itself in `origins` ("" for the outermost struct);
+    /// `origins` may be null.
     FieldReader(const Node& mapping, Diagnostics& diagnostics, Origins* origins = nullptr,
                 std::string path = "");
 
@@ -36,7 +38,7 @@ class FieldReader {
     void operator()(std::string_view name, std::optional<Formula>& value, Field field = {});
     void operator()(std::string_view name, FormulaVec3& value, Field field = {});
     void operator()(std::string_view name, std::optional<FormulaVec3>& value, Field field = {});
-    /// Three rows of three numbers.
+    /// Reads a matrix: three rows of three numbers each.
     void operator()(std::string_view name, Mat3& value, Field field = {});
     void operator()(std::string_view name, int& value, Field field = {});
     void operator()(std::string_view name, bool& value, Field field = {});
@@ -88,26 +90,26 @@ class FieldReader {
         }
     }
 
-    /// Keeps a part of the file unread, for a reader that knows its content.
+    /// Keeps a part of the file as a Node, without reading it, for a reader that knows its content.
     void operator()(std::string_view name, Node& value, Field field = {});
 
-    /// A field that belongs to structs of another kind; it is an error to give it here.
+    /// Declares a field that belongs only to structs of another kind; giving it here is an error.
     void foreign(std::string_view name, const Field& field, const std::string& remedy);
 
-    /// The place at which the struct itself was written; place_of() gives a field's place or,
-    /// failing that, the struct's.
+    /// The place where the struct itself was written. place_of() returns the place of a field or,
+    /// if the field is missing, that of the struct.
     Place place() const;
     Place place_of(std::string_view name) const;
     /// Whether the mapping gives the field, in any unit.
     bool has(std::string_view name, Quantity quantity = Quantity::none) const;
-    /// Whether a key is meant for the field, readable or not.
+    /// Whether the mapping has a key that is meant for the field, even if its value cannot be read.
     bool mentions(std::string_view name) const;
-    /// Whether the mapping gives the field as a list, where a mapping is possible too.
+    /// Whether the field, which may be a list or a mapping, is given as a list.
     bool is_list(std::string_view name) const;
     Diagnostics& diagnostics() { return diagnostics_; }
 
-    /// Reads a struct from the whole mapping. A member `place` becomes the place of the mapping;
-    /// keys that belong to no field are reported.
+    /// Reads a struct from the whole mapping, and reports keys that belong to no field. If the
+    /// struct has a member `place`, that member is set to the mapping's place.
     template <class Struct>
     void read_whole(Struct& value) {
         if constexpr (requires { value.place = place(); }) value.place = place();
@@ -130,9 +132,9 @@ class FieldReader {
     };
 
     Given take(std::string_view name, const Field& field);
-    /// Keys that may still be given.
+    /// The keys that are allowed here and have not been given yet.
     std::vector<Choice> choices() const;
-    /// `given`, or the entry under the field's old name.
+    /// Returns `given` or, if the field is given under its old name, the entry with that name.
     Given take_old(std::string_view name, const Field& field, Given given);
     const Node* take_mapping(std::string_view name, const Field& field);
     const Node* take_list(std::string_view name, const Field& field);
@@ -161,7 +163,7 @@ class FieldReader {
     std::set<std::string> used_;
 };
 
-/// Reads a whole mapping into a struct; problems go to `diagnostics`.
+/// Reads a whole mapping into a struct, and adds any problems to `diagnostics`.
 template <class Struct>
 void read_fields(Struct& value, const Node& mapping, Diagnostics& diagnostics,
                  Origins* origins = nullptr) {
@@ -173,7 +175,8 @@ void read_fields(Struct& value, const Node& mapping, Diagnostics& diagnostics,
     FieldReader(mapping, diagnostics, origins).read_whole(value);
 }
 
-/// Like read_fields(), for a mapping that may be left out; then all fields keep their defaults.
+/// Like read_fields(), for a mapping that may be omitted, in which case all fields keep their
+/// defaults.
 template <class Struct>
 void read_given_fields(Struct& value, const Node& mapping, Diagnostics& diagnostics,
                        Origins* origins = nullptr) {

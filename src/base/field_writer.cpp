@@ -15,8 +15,8 @@ Node exact(const Vec3& value) {
     return list;
 }
 
-/// Whether a word is a number in the form in which we write it; a text in a list may be either a
-/// number or a word.
+/// Whether a word is a number in the form in which this program writes numbers. An item of a list
+/// of texts may be either a number or a word.
 bool is_as_written(const std::string& word) {
     if (const auto whole = whole_number<uint64_t>(word)) return number_text(*whole) == word;
     const auto number = finite_number(word);
@@ -87,7 +87,8 @@ void FieldWriter::operator()(std::string_view name, const bool& value, Field) {
 
 void FieldWriter::operator()(std::string_view name, const std::string& value, Field field) {
     if (value.empty()) return;
-    // a number that is stored as text because of its size is recognised by its bounds
+    // a number that is stored as text because of its size can be recognised because its field has
+    // bounds
     const bool number = std::isfinite(field.min) && is_as_written(value);
     mapping_.set(std::string(name), number ? Node::plain_word(value) : Node::of(value));
 }

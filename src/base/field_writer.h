@@ -1,7 +1,7 @@
 // Writes configuration structs (base/field.h) as YAML, with every value resolved and in SI units;
-// sessions keep their inputs in this form. A formula is written as given, with its unit. Reading
-// the result gives the same struct, to the bit. An infinite value cannot be written and is left
-// out, so it must be the default of its field.
+// sessions store their inputs in this form. A formula is written as it was given, with its unit.
+// Reading the result gives a bitwise identical struct. An infinite value cannot be written and is
+// left out, so it must be its field's default.
 #pragma once
 
 #include <optional>
@@ -80,7 +80,7 @@ class FieldWriter {
     Node mapping_ = Node::mapping();
 };
 
-/// The struct as a mapping.
+/// Returns the struct as a mapping.
 template <class Struct>
 Node write_fields(Struct value) {
     return FieldWriter::write(value);

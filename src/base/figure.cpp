@@ -10,7 +10,7 @@
 namespace dihaptic {
 namespace {
 
-/// The ending of a name with a unit: "N/s" becomes "_N_s", "N*m" becomes "_Nm".
+/// The ending that a unit adds to a name: "N/s" becomes "_N_s", "N*m" becomes "_Nm".
 std::string ending(std::string_view unit) {
     std::string out = "_";
     for (const char c : unit) {
@@ -19,7 +19,8 @@ std::string ending(std::string_view unit) {
     return out;
 }
 
-/// Benchmarks write units in lower case: "drag_n".
+/// Whether the key ends with `end`, ignoring case, because benchmarks write units in lower case:
+/// "drag_n".
 bool ends_with(std::string_view key, std::string_view end) {
     const auto same = [](char a, char b) { return std::tolower(a) == std::tolower(b); };
     return key.size() >= end.size() && std::equal(end.rbegin(), end.rend(), key.rbegin(), same);
@@ -32,7 +33,7 @@ FigureForm figure_form(std::string_view name, std::string_view unit) {
     if (unit.empty() || unit == "1" || ends_with(key, ending(unit))) return {key, 1};
     const Unit* known = find_unit(ending(unit).substr(1));
     assert(known != nullptr);
-    // NWB defines the names of these two
+    // these two names are defined by NWB
     const bool nwb = name == "start_time" || name == "stop_time";
     return {nwb ? key : key + ending(unit), 1 / known->si};
 }

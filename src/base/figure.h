@@ -1,4 +1,4 @@
-// A struct of results lists its figures once, each with its unit and a sentence:
+// A struct of results lists its figures once, each with its unit and a description:
 //
 //     struct Lift {
 //         double peak_grip = kUnmeasured;
@@ -11,11 +11,11 @@
 //         }
 //     };
 //
-// The columns of CSV and NWB files, their descriptions in BIDS, tables on pages and in the
-// documentation, and keys in JSON follow from that list. A member is in SI units; its column is in
-// the listed unit, with which its name ends: peak_grip_N, height_mm. If the name in the list
-// already ends in the unit, the member itself is in that unit. Pure numbers have the unit "1",
-// texts none: "".
+// This list determines the columns of CSV and NWB files, their descriptions in BIDS, the tables on
+// pages and in the documentation, and the keys in JSON. Members are in SI units. A column is in the
+// listed unit, which is appended to its name: peak_grip_N, height_mm. If the name in the list
+// already ends in the unit, the member itself is in that unit. Pure numbers have the unit "1", and
+// texts have the empty unit "".
 #pragma once
 
 #include <optional>
@@ -30,21 +30,23 @@
 
 namespace dihaptic {
 
-/// How a figure is written: the name of its column, and the factor for its member.
+/// How a figure is written: the name of its column, and the factor by which its member is
+/// multiplied.
 struct FigureForm {
     std::string key;
     double scale = 1;
 };
 /// `unit` is in the usual notation, e.g. "N/s"; base/unit.h must know it.
 FigureForm figure_form(std::string_view name, std::string_view unit);
-/// The same with the sentence that describes the figure.
+/// Like FigureForm, with the sentence that describes the figure.
 struct FigureColumn {
     Table::Column column;
     double scale = 1;
 };
 FigureColumn figure_column(std::string_view name, std::string_view unit, std::string_view what);
 
-/// Collects figures, from a struct or from direct calls, as the columns and cells of a table.
+/// Collects figures as the columns and cells of a table. The figures may come from a struct or from
+/// direct calls.
 class FigureLister {
   public:
     template <class T>
@@ -54,7 +56,7 @@ class FigureLister {
         columns.push_back(std::move(figure.column));
         cells.push_back(cell(value, figure.scale));
     }
-    /// Figures nested in others have both names: "awake.median_us".
+    /// A figure in a nested struct gets both names: "awake.median_us".
     template <class T>
     requires requires(const T& figures, FigureLister& lister) { T::visit(figures, lister); }
     void operator()(std::string_view name, const T& value, std::string_view, std::string_view) {
@@ -94,7 +96,7 @@ FigureLister list_figures(const Figures& figures) {
     return out;
 }
 
-/// A row for each of `rows`, a range of Figures.
+/// Adds a row for each item of `rows`, a range of Figures.
 template <class Figures, class Rows>
 Table figure_table(const Rows& rows) {
     Table out{list_figures(Figures{}).columns, {}};
@@ -102,7 +104,7 @@ Table figure_table(const Rows& rows) {
     return out;
 }
 
-/// Adds the columns of a struct to a table, and its cells to a row of that table.
+/// Adds the columns of a struct to a table, and the struct's values to a row of that table.
 template <class Figures>
 void add_columns(Table& table) {
     for (Table::Column& column : list_figures(Figures{}).columns)
@@ -127,7 +129,7 @@ class FigureFinder {
   private:
     const void* member_;
 };
-/// The column of a member that the struct lists.
+/// Returns the column of a member that the struct lists.
 template <class Figures, class Member>
 FigureColumn figure_column(Member Figures::*member) {
     const Figures figures{};
@@ -136,7 +138,7 @@ FigureColumn figure_column(Member Figures::*member) {
     return finder.found;
 }
 
-/// Adds a row to a table, and sets the table's columns.
+/// Adds a row to a table, and sets the columns of the table.
 void add_row(Table& table, FigureLister row);
 
 /// Writes a struct's figures as a JSON object (`Json` is nlohmann::ordered_json). Structs that list

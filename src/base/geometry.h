@@ -1,6 +1,6 @@
 // Vectors, rotations and poses, in the monogram notation of docs/conventions.md: X_AB is the pose
-// of frame B in frame A, p_AB the position of B's origin in A, R_AB the rotation of B in A.
-// Adjacent letters match in every product: X_AC = X_AB * X_BC, p_AC = X_AB * p_BC.
+// of frame B in frame A, p_AB is the position of B's origin in A, and R_AB is the rotation of B in
+// A. Adjacent letters match in every product: X_AC = X_AB * X_BC, p_AC = X_AB * p_BC.
 #pragma once
 
 #include <Eigen/Dense>
@@ -9,7 +9,8 @@ namespace dihaptic {
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
-/// Unit quaternion. Not over-aligned, so that records that contain one can be copied byte by byte.
+/// Unit quaternion. It has no extra alignment, so that records that contain one can be copied byte
+/// by byte.
 using Quat = Eigen::Quaternion<double, Eigen::DontAlign>;
 
 /// Rigid pose X_AB of frame B in frame A.
@@ -17,7 +18,7 @@ struct Pose {
     Quat R = Quat::Identity();  ///< R_AB
     Vec3 p = Vec3::Zero();      ///< p_AB [m]
 
-    /// p_AC from p_BC [m].
+    /// Transforms a point: p_AC from p_BC [m].
     Vec3 operator*(const Vec3& p_BC) const { return R * p_BC + p; }
     Pose operator*(const Pose& X_BC) const { return {R * X_BC.R, R * X_BC.p + p}; }
     Pose inverse() const {
@@ -26,16 +27,16 @@ struct Pose {
     }
 };
 
-/// Rotation about the fixed axes x, then y, then z, by these angles [rad].
+/// Rotation about the fixed axes x, then y, then z, by the given angles [rad].
 inline Quat rotation_xyz(const Vec3& angles) {
     return Quat(Eigen::AngleAxisd(angles.z(), Vec3::UnitZ()) *
                 Eigen::AngleAxisd(angles.y(), Vec3::UnitY()) *
                 Eigen::AngleAxisd(angles.x(), Vec3::UnitX()));
 }
 
-/// The angles of rotation_xyz() [rad]; the angle about y lies in -pi / 2 to pi / 2. At
-/// either end of that range only the sum or difference of the other two is determined, and z is set
-/// to 0.
+/// The angles of rotation_xyz() [rad]; the angle about y is between -pi / 2 and pi / 2. At either
+/// end of that range, only the sum or the difference of the other two angles is determined, and the
+/// angle about z is set to 0.
 inline Vec3 angles_xyz(const Quat& R_AB) {
     const Mat3 R = R_AB.toRotationMatrix();
     const double cosine = std::hypot(R(0, 0), R(1, 0));
@@ -44,23 +45,24 @@ inline Vec3 angles_xyz(const Quat& R_AB) {
             std::atan2(R(1, 0), R(0, 0))};
 }
 
-/// Exponential map: the rotation by the angle |r| about the axis r [rad].
+/// Exponential map: the rotation about the direction of r by the angle |r| [rad].
 inline Quat rotation_by(const Vec3& r) {
     const double angle = r.norm();
     if (angle == 0) return Quat::Identity();
     return Quat(Eigen::AngleAxisd(angle, r / angle));
 }
 
-/// Logarithmic map, the inverse of rotation_by(): axis times angle, the angle at most pi [rad].
+/// Logarithmic map, the inverse of rotation_by(): the axis times the angle, which is at most pi
+/// [rad].
 inline Vec3 rotation_vector(const Quat& R) {
     const double sine = R.vec().norm();
-    // for an angle this small, 2 sin(angle / 2) is the angle
+    // for an angle this small, 2 sin(angle / 2) equals the angle
     if (sine < 1e-12) return (R.w() < 0 ? -2.0 : 2.0) * R.vec();
     const double angle = 2 * std::atan2(R.w() < 0 ? -sine : sine, std::abs(R.w()));
     return angle / sine * R.vec();
 }
 
-/// A force on a handle or a body, and a torque about its origin.
+/// A force on a handle or a body, and a torque about the origin of that handle or body.
 struct Wrench {
     Vec3 force = Vec3::Zero();   ///< [N]
     Vec3 torque = Vec3::Zero();  ///< [N*m]

@@ -36,7 +36,7 @@ bool is_number(std::string_view line) {
     return finite_number(word).has_value();
 }
 
-/// The separator that occurs most often outside quotes in a line; a comma if there is none.
+/// The separator that occurs most often outside the quotes in a line; a comma if there is none.
 char most_frequent(std::string_view line) {
     std::array<int64_t, kSeparators.size()> counts{};
     bool quoted = false;
@@ -61,7 +61,7 @@ GivenTable::GivenTable(std::string_view text, std::string file, size_t begin)
     if (text.find('\n') == std::string_view::npos && text.find('\r') != std::string_view::npos)
         throw Error({file_, 0}, "", "its lines end in CR only, as on old Macs",
                     "Save it with LF or CR LF line ends.");
-    // Microsoft's spreadsheets write and expect this line
+    // Microsoft's spreadsheets write such a line and expect it
     const std::string_view first = trimmed(text.substr(0, text.find_first_of("\r\n")));
     if (first.starts_with("sep=") && first.size() == 5) {
         separator_ = first[4];
@@ -78,7 +78,8 @@ GivenTable::GivenTable(std::string_view text, std::string file, size_t begin)
         const size_t end = std::min(rest.find('\n'), rest.size());
         const std::string_view line = rest.substr(0, end);
         separator_ = most_frequent(line);
-        // a single number with a decimal comma, like a rate from Nexus, has no separator
+        // a line with a single number and a decimal comma, such as a rate from Nexus, has no
+        // separator
         if (line.find(separator_) != std::string_view::npos && !is_number(line)) return;
         rest.remove_prefix(std::min(end + 1, rest.size()));
         separator_ = ',';
@@ -113,7 +114,7 @@ std::optional<std::vector<std::string>> GivenTable::next() {
 std::vector<std::string> GivenTable::split(std::string_view line) const {
     std::vector<std::string> cells;
     for (;;) {
-        // blanks may precede a quote; a tab is a blank only where it does not separate cells
+        // blanks may precede a quote; a tab counts as a blank only if it does not separate cells
         while (!line.empty() && (line[0] == ' ' || (line[0] == '\t' && separator_ != '\t')))
             line.remove_prefix(1);
         std::string& cell = cells.emplace_back();

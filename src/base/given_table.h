@@ -1,7 +1,7 @@
-// A table from a user, as spreadsheets, trackers and statistics programs write it in any
-// country: with commas, semicolons or tabs between its cells (perhaps declared by a line sep=;),
-// points or commas before decimals, and cells in quotes. Anything ambiguous is an error with file,
-// line and remedy. The program's own tables are read by read_csv().
+// A table from a user, in any of the forms that spreadsheets, trackers and statistics programs
+// write in any country: with commas, semicolons or tabs between cells (possibly declared by a line
+// such as sep=;), decimal points or decimal commas, and quoted cells. Anything ambiguous is an
+// error with file, line and remedy. The program's own tables are read by read_csv().
 #pragma once
 
 #include <cstdint>
@@ -14,31 +14,32 @@
 
 namespace dihaptic {
 
-/// Reads a table line by line, because movements have millions of lines.
+/// Reads a table line by line, because recorded movements have millions of lines.
 class GivenTable {
   public:
-    /// `text` is the file's text, which must outlive this object; the table starts at one of its
-    /// lines.
+    /// `text` is the whole text of the file, and must outlive this object. The table starts at byte
+    /// `begin`, which must be the start of a line.
     GivenTable(std::string_view text, std::string file, size_t begin = 0);
 
-    /// Cells of the next line that is not empty, without the blanks around them; nullopt at the
-    /// end. Throws Error if a line has an unclosed quote or thousands of cells.
+    /// The cells of the next line that is not empty, without surrounding blanks; nullopt at the
+    /// end. Throws Error if the line has an unclosed quote or too many cells.
     std::optional<std::vector<std::string>> next();
-    /// The cells that next() will return.
+    /// The cells that next() will return, without moving on.
     std::optional<std::vector<std::string>> peek() const { return GivenTable(*this).next(); }
-    /// The line that next() returned.
+    /// The line whose cells next() returned last.
     Place place() const { return {file_, line_}; }
-    /// Whether empty lines preceded that line.
+    /// Whether empty lines preceded the line returned last.
     bool after_gap() const { return gap_; }
 
-    /// The number in a cell; nullopt if it is not a number. Throws Error when the table has both
-    /// decimal points and decimal commas: one of the two must separate thousands.
+    /// The number in a cell; nullopt if the cell does not contain a number. Throws Error if the
+    /// table has both decimal points and decimal commas, because one of the two must then separate
+    /// thousands.
     std::optional<double> number(const std::string& cell);
-    /// Warns, at the end, about numbers in which a comma may separate thousands.
+    /// To be called at the end: warns about numbers in which a comma may separate thousands.
     void tell_commas(Diagnostics& diagnostics) const;
 
     char separator() const { return separator_; }
-    /// The separator in words, e.g. "semicolons", for messages.
+    /// The separator in words for use in messages, e.g. "semicolons".
     const char* separators() const;
 
   private:
@@ -50,7 +51,7 @@ class GivenTable {
     char separator_ = ',';
     int line_ = 0;
     bool gap_ = false;
-    int point_ = 0;  // line of the first number with a point before decimals; 0: none so far
+    int point_ = 0;  // line of the first number with a decimal point; 0 if there has been none
     int comma_ = 0;
 };
 

@@ -20,8 +20,8 @@ namespace {
 constexpr int64_t kMostPng = 200'000'000;  // [bytes]
 constexpr int64_t kMostPixels = 64'000'000;
 
-/// The last chunk of a PNG file is IEND (PNG specification, 11.2.5); without it, pixels may be
-/// missing.
+/// Checks that the file is complete. The last chunk of a PNG file is IEND (PNG specification,
+/// 11.2.5); without it, pixels may be missing.
 void check_whole(const std::string& bytes, const std::string& file) {
     if (!bytes.starts_with("\x89PNG") || bytes.rfind("IEND") != std::string::npos) return;
     throw Error({file, 0}, "", "was cut short: its end is missing",
@@ -57,9 +57,9 @@ void check_pixels(int64_t width, int64_t height, const std::string& file) {
                             kMostPixels / 1'000'000));
 }
 
-/// Uses libpng's low-level interface, which applies no gamma, to convert every form of PNG file to
-/// rows of red, green, blue and alpha. libpng reports errors by longjmp, so no object that it jumps
-/// over may have a destructor.
+/// Converts every form of PNG file to rows of red, green, blue and alpha. Uses libpng's low-level
+/// interface, which applies no gamma. libpng reports errors by longjmp, so no object between the
+/// call and the jump's target may have a destructor.
 class PngReader {
   public:
     explicit PngReader(const std::string& bytes) : rest_(bytes) {
@@ -74,7 +74,7 @@ class PngReader {
         if (setjmp(png_jmpbuf(png_))) return false;
         png_set_read_fn(png_, this, &take);
         png_read_info(png_, info_);
-        png_set_expand(png_);  // palettes, fewer than 8 bits, tRNS
+        png_set_expand(png_);  // expands palettes, samples of fewer than 8 bits, and tRNS
         png_set_gray_to_rgb(png_);
         png_set_add_alpha(png_, 0xffff, PNG_FILLER_AFTER);
         png_set_interlace_handling(png_);
@@ -112,7 +112,7 @@ class PngReader {
     std::string why_;
 };
 
-/// A sample of one or two bytes as a fraction of the largest value.
+/// Returns a sample of one or two bytes as a fraction of the largest possible value.
 float share(const uint8_t* at, size_t bytes) {
     return bytes == 1 ? static_cast<float>(at[0]) / 255
                       : static_cast<float>(at[0] << 8 | at[1]) / 65535;

@@ -11,20 +11,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The shared library that contains this function, if there is one. The running program is then
-/// another, such as Python.
+/// The shared library that contains this function, if there is one, in which case the running
+/// program is a different one, such as Python.
 fs::path file_of_this() {
     std::error_code ignored;
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
     Dl_info info{};
     if (dladdr(reinterpret_cast<const void*>(&file_of_this), &info) == 0) return program;
-    // for a program, dli_fname is the name with which it was started, and may be found through PATH
-    // only
+    // for a program, dli_fname is the name with which it was started, which may be one that only a
+    // search of PATH finds
     const fs::path library = fs::canonical(info.dli_fname, ignored);
     return ignored || library.extension() != ".so" ? program : library;
 }
 
-/// The folder of a user's files for all studies; "" if the user has no home.
+/// The folder of a user's files for all studies; "" if the user has no home directory.
 fs::path own_folder() {
     const std::string data = user_data();
     return data.empty() ? fs::path() : fs::path(data) / "dihaptic";

@@ -1,5 +1,5 @@
-// Reads JSON from other programs. Copying and writing a value is recursive, so a few kilobytes of
-// brackets would exhaust a small stack.
+// Reads JSON from other programs. Values are copied and written recursively, so without a limit a
+// few kilobytes of brackets would exhaust a small stack.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,10 +7,11 @@
 
 namespace dihaptic {
 
-/// Largest depth of nesting; no message or file of the program is nested as deeply.
+/// Maximum nesting depth; no message or file of this program is nested as deeply.
 constexpr int kDeepestJson = 32;
 
-/// The value is discarded (is_discarded()) if the text is not JSON, or is nested too deeply.
+/// Parses JSON. The result is a discarded value (is_discarded()) if the text is not JSON or is
+/// nested too deeply.
 inline nlohmann::json parse_json(std::string_view text) {
     using Value = nlohmann::json;
     bool too_deep = false;

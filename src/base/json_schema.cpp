@@ -12,7 +12,8 @@
 namespace dihaptic {
 namespace {
 
-/// The syntax that finite_number() accepts; FieldReader also accepts quotes around a number.
+/// The syntax of the numbers that finite_number() accepts; FieldReader also accepts quotes around a
+/// number.
 constexpr const char* kNumber = R"(^[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?$)";
 constexpr double kLargestWhole = 1e9;  // of FieldReader
 
@@ -34,8 +35,8 @@ Json three(const Json& item) {
     return {{"type", "array"}, {"items", item}, {"minItems", 3}, {"maxItems", 3}};
 }
 
-/// A value of these types, or true or false. The latter are listed, since editors propose true and
-/// false wherever a type may be boolean.
+/// A value of one of these types, or true or false. The latter two are not given as the type
+/// boolean, because editors propose true and false wherever a type may be boolean.
 Json one_of_these(const std::vector<std::string>& types, const char* said) {
     Json others{"string", "number", "object", "array", "null"};
     return {{"anyOf", {{{"type", types}, {"errorMessage", said}}, {{"not", {{"type", others}}}}}}};
@@ -47,7 +48,8 @@ Json text(const Field& field) {
     return out;
 }
 
-/// A default in FieldWriter's form, in the key's unit; null if there is none.
+/// The default of a field, in the form written by FieldWriter and in the key's unit; null if there
+/// is none.
 Json preset_of(const Node& node, double si) {
     if (node.kind == Node::Kind::scalar) {
         const auto number = node.plain ? finite_number(node.scalar) : std::nullopt;
@@ -97,8 +99,7 @@ void require(Json& schema, const std::vector<std::vector<std::string>>& required
     }
 }
 
-/// The keys that only some kinds have; those in `common`, which are already described, may also
-/// occur.
+/// The keys of one kind of struct. Keys in `common` are also allowed, but are not described again.
 Json keys_of_kind(const SchemaKeys& keys, const SchemaKeys& common) {
     Json out{{"properties", Json::object()}, {"additionalProperties", false}};
     for (const SchemaKeys::Key& key : keys.keys)
@@ -111,7 +112,7 @@ Json keys_of_kind(const SchemaKeys& keys, const SchemaKeys& common) {
     return out;
 }
 
-/// The keys that all kinds have.
+/// The keys that all the kinds have in common.
 SchemaKeys common_keys(const std::vector<SchemaKeys>& each) {
     SchemaKeys out;
     const auto everywhere = [&](const auto& has) {
@@ -156,7 +157,7 @@ Json JsonSchema::mapping(std::string_view key, const std::vector<std::string_vie
                          const std::vector<SchemaKeys>& each) {
     const SchemaKeys common = common_keys(each);
     Json out = mapping(common);
-    out.erase("additionalProperties");  // each kind lists the other keys that it allows
+    out.erase("additionalProperties");  // each kind lists the additional keys that it allows
     Json known = Json::array();
     bool any_word = false;
     for (const std::string_view word : words) {
@@ -226,8 +227,8 @@ void SchemaLister::add(std::string_view name, const Field& field, const Node& wr
     keep_one_default(names.size(), best);
 }
 
-/// When an editor starts a mapping, it inserts all keys that have a default, so each value has its
-/// default in one unit only.
+/// Keeps a value's default in one unit only, because an editor that starts a mapping inserts all
+/// keys that have a default.
 void SchemaLister::keep_one_default(size_t units, const Json& best) {
     bool kept = false;
     for (size_t i = found_.keys.size() - units; i < found_.keys.size(); ++i) {

@@ -1,9 +1,9 @@
-// Makes JSON Schemas, draft 7, from configuration structs (base/field.h). An editor that has the
-// schema of a file completes the keys, explains each, and marks mistakes as they are typed.
+// Generates JSON Schemas, draft 7, from configuration structs (base/field.h). An editor that has
+// the schema of a file can complete and explain the keys, and mark mistakes as they are typed.
 //
-// A schema refuses nothing that FieldReader accepts. It is meant for YAML 1.2, in which yes and no
-// are words. Mistakes that a schema cannot express are left to `dihaptic check`: names of objects
-// that do not exist, mistakes in expressions, keys that exclude each other.
+// A schema accepts everything that FieldReader accepts. It is meant for YAML 1.2, in which yes and
+// no are words. Mistakes that a schema cannot detect are left to `dihaptic check`: names of objects
+// that do not exist, mistakes in expressions, and keys that exclude each other.
 #pragma once
 
 #include <functional>
@@ -24,26 +24,26 @@
 
 namespace dihaptic {
 
-/// A schema, or a part of one, whose keys keep their order.
+/// A schema or a part of a schema. Its keys keep their order.
 using Json = nlohmann::ordered_json;
 
-/// The keys of a mapping.
+/// The keys that a mapping may have.
 struct SchemaKeys {
     struct Key {
         std::string name;
         Json schema;
     };
     std::vector<Key> keys;
-    /// For each required key: its name with every possible unit.
+    /// For each required key: its name combined with each possible unit.
     std::vector<std::vector<std::string>> required;
 };
 
-/// The schema of one kind of file. Each struct is defined once; keys refer to the definition.
+/// The schema of one kind of file. Each struct is defined once, and keys refer to that definition.
 class JsonSchema {
   public:
-    /// Describes a part that is read elsewhere (a Node with this name in a visit()), by the
-    /// keys of a struct, or by a schema. Call it before of(). A Node without a description may be
-    /// any mapping.
+    /// Describes a part of the file that is read elsewhere (a Node with this name in a visit()),
+    /// using the keys of a struct or a schema. To be called before of(). A Node without a
+    /// description may be any mapping.
     template <class Struct>
     void part(const std::string& name, const std::string& heading, const Struct& value) {
         part_of_kind(name, "", heading, value);
@@ -51,7 +51,7 @@ class JsonSchema {
     void part(const std::string& name, const Json& schema) {
         parts_[{name, ""}] = [schema] { return schema; };
     }
-    /// The same, for a mapping whose kind is `word` (kinds_of()).
+    /// Like the function above, for a mapping of the kind `word` (kinds_of()).
     template <class Struct>
     void part_of_kind(const std::string& name, const std::string& word, const std::string& heading,
                       const Struct& value) {
@@ -63,8 +63,8 @@ class JsonSchema {
         };
     }
 
-    /// The schema of a file that is read into this struct. `heading` names the kind of file in a
-    /// word or two.
+    /// The schema of a file that is read into this struct. `heading` names the kind of file in one
+    /// or two words.
     template <class Struct>
     Json of(const Struct& value, const std::string& heading) {
         return whole(object(value, heading), heading);
@@ -72,19 +72,19 @@ class JsonSchema {
 
     /// The schema of a value that is yes or no.
     static Json yes_or_no() { return {{"enum", {"yes", "no", true, false, "true", "false"}}}; }
-    /// The schema of any word or text, even a number, "yes" or "true".
+    /// The schema of any word or text, including a number, "yes" or "true".
     static Json word();
 
   private:
     friend class SchemaLister;
 
     Json whole(const Json& keys, const std::string& heading) const;
-    /// A mapping with these keys.
+    /// The schema of a mapping with these keys.
     static Json mapping(const SchemaKeys& keys);
-    /// A mapping whose keys depend on the value of `key`.
+    /// The schema of a mapping whose keys depend on the value of `key`.
     static Json mapping(std::string_view key, const std::vector<std::string_view>& words,
                         const std::vector<SchemaKeys>& each);
-    /// The keys of a mapping that can be given in two ways.
+    /// The keys of a mapping that can be written in two ways.
     static SchemaKeys either(SchemaKeys one, const SchemaKeys& other);
 
     template <class Struct>
@@ -104,7 +104,8 @@ class JsonSchema {
             return mapping(keys_of(value, path));
         }
     }
-    /// A reference to the struct's definition, which is named after the first key that uses it.
+    /// A reference to the definition of the struct. The definition is named after the first key
+    /// that uses it.
     template <class Struct>
     Json refer(const Struct& value, const std::string& path) {
         const auto [name, is_new] = names_.try_emplace(typeid(Struct), path);
@@ -116,7 +117,7 @@ class JsonSchema {
     Json part_of(const std::string& name, std::string_view word) const;
 
     std::map<std::pair<std::string, std::string>, std::function<Json()>>
-        parts_;  // by name and kind
+        parts_;  // indexed by name and kind
     std::map<std::type_index, std::string> names_;
     Json definitions_ = Json::object();
 };
@@ -124,8 +125,8 @@ class JsonSchema {
 /// Visitor that lists the keys of one struct.
 class SchemaLister {
   public:
-    /// `word`: the struct's kind, if it has kinds. `as_lists`: a value that may be a list or
-    /// a mapping is described as a list.
+    /// `word` is the kind of the struct, if it has kinds. If `as_lists`, a value that may be either
+    /// a list or a mapping is described as a list.
     SchemaLister(JsonSchema& schema, std::string path, std::string_view word, bool as_lists)
         : schema_(schema), path_(std::move(path)), word_(word), as_lists_(as_lists) {}
 
@@ -145,14 +146,14 @@ class SchemaLister {
     SchemaKeys take() { return std::move(found_); }
 
   private:
-    /// `written`: the key with its default, or without one.
+    /// Adds a key; `written` holds the key with or without its default.
     void add(std::string_view name, const Field& field, const Node& written,
              const std::function<Json(double si)>& schema);
     static Json one_of(std::vector<std::string> words);
     static Json list_of(Json items);
     void keep_one_default(size_t units, const Json& best);
 
-    /// `si`: the key's unit in SI units.
+    /// The schema of a value; `si` is the value of the key's unit in SI units.
     static Json of(double, const Field& field, double si, const std::string&);
     static Json of(const Vec3&, const Field& field, double si, const std::string&);
     static Json of(const Mat3&, const Field& field, double si, const std::string&);

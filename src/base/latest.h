@@ -1,6 +1,6 @@
-// Latest hands the newest value from one thread that writes it to one that reads it. Neither thread
-// waits, and neither sees half a value: there are three copies, and the two threads never hold the
-// same copy.
+// Latest passes the newest value from one writing thread to one reading thread. Neither thread
+// waits, and the reader never sees a partly written value: there are three copies, and the two
+// threads never hold the same one.
 #pragma once
 
 #include <array>
@@ -12,13 +12,15 @@ namespace dihaptic {
 template <class T>
 class Latest {
   public:
-    /// All three copies start as `value`.
+    /// All three copies are initialised with `value`.
     explicit Latest(const T& value = {}) : values_{value, value, value} {}
 
-    /// All three copies, e.g. to reserve their memory. To be called only before the threads start.
+    /// Returns all three copies, e.g. to reserve memory for them. To be called only before the
+    /// threads start.
     std::array<T, 3>& values() noexcept { return values_; }
 
-    /// Writer: the copy to fill in, which still contains an old value. publish() hands it over.
+    /// For the writer: the copy to fill in, which still contains an old value. publish() hands it
+    /// over.
     T& next() noexcept { return values_[writing_]; }
     void publish() noexcept {
         writing_ = shared_.exchange(static_cast<uint8_t>(writing_ | kNew), order()) & kIndex;
@@ -28,12 +30,12 @@ class Latest {
         publish();
     }
 
-    /// Reader: the newest value that was published, valid until the next read().
+    /// For the reader: the newest published value, valid until the next read().
     const T& read() noexcept {
         if (is_new()) reading_ = shared_.exchange(reading_, order()) & kIndex;
         return values_[reading_];
     }
-    /// Reader: whether there is a newer value than read() last returned.
+    /// For the reader: whether a newer value than the one last returned by read() is available.
     bool is_new() const noexcept { return (shared_.load(std::memory_order_relaxed) & kNew) != 0; }
 
   private:

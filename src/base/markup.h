@@ -5,7 +5,8 @@
 
 namespace dihaptic {
 
-/// The text with its markup characters escaped, for use between tags and in quoted attributes.
+/// Returns the text with its markup characters escaped, for use between tags and in quoted
+/// attributes.
 std::string escaped_markup(const std::string& text);
 
 }  // namespace dihaptic

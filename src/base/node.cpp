@@ -38,7 +38,7 @@ Node Node::plain_word(std::string word) {
 
 Node Node::number(double value) {
     std::string text = number_text(value);
-    // PyYAML reads 1e-05 as text
+    // without a decimal point, PyYAML would read 1e-05 as text
     if (const size_t e = text.find('e'); e != std::string::npos && text.find('.') > e)
         text.insert(e, ".0");
     return plain_word(std::move(text));
@@ -62,13 +62,13 @@ void Node::set(const std::string& key, Node value) {
 
 namespace {
 
-/// An alias (*name) inside the node that it refers to would never end, and aliases of aliases can
-/// double the document at each level.
+/// Limits for aliases: an alias (*name) inside the node that it refers to would never end, and
+/// aliases of aliases can double the document's size at each level.
 constexpr size_t kDeepest = 32;
 constexpr size_t kMostNodes = 500'000;
 
-/// Builds the tree while the text is read, so that excessive nesting or size is refused at
-/// once. In the tree of YAML::Load() each look-up of a key would search all keys.
+/// Builds the tree while the text is being read, so that excessive nesting or size is refused at
+/// once. YAML::Load() is not used because each look-up of a key in its tree searches all the keys.
 class TreeBuilder final : public YAML::EventHandler {
   public:
     TreeBuilder(const std::string& file, Words words) : file_(file), words_(words) {
@@ -78,12 +78,12 @@ class TreeBuilder final : public YAML::EventHandler {
     Node take() { return std::move(root_); }
 
   private:
-    /// A list or mapping whose end has not been read.
+    /// A list or mapping whose end has not yet been read.
     struct Open {
         Node node;
         YAML::anchor_t anchor;
-        size_t count;       // nodes before it
-        size_t height = 0;  // levels below it
+        size_t count;       // number of nodes before this one
+        size_t height = 0;  // number of levels below this node
         std::optional<Node> key = std::nullopt;
     };
     struct Named {
@@ -102,7 +102,7 @@ class TreeBuilder final : public YAML::EventHandler {
                   const std::string& text) override {
         Node node = begin(Node::Kind::scalar, mark);
         node.scalar = text;
-        node.plain = tag == "?";  // yaml-cpp's tag for plain scalars
+        node.plain = tag == "?";  // yaml-cpp's tag for scalars without quotes
         if (const auto fault = find_fault(text)) {
             node.scalar = mended(text);
             if (words_ == Words::checked)
@@ -156,7 +156,8 @@ void TreeBuilder::check_single(const Place& place) const {
                 "Keep one document a file.");
 }
 
-/// `height`: levels below the node that starts here.
+/// Checks the number of nodes and the depth of nesting; `height` is the number of levels below the
+/// node that starts here.
 void TreeBuilder::check_size(const Place& place, size_t height) const {
     if (open_.size() + height > kDeepest)
         throw Error(place, "", fmt::format("is nested too deeply: more than {} levels", kDeepest),
@@ -253,13 +254,13 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
     });
 }
 
-/// Whether YAML 1.1 reads the word as a truth value, as this program does.
+/// Whether YAML 1.1, like this program, reads the word as a Boolean value.
 bool is_truth(std::string_view word) {
     return is_one_of(word, {"yes", "no", "true", "false", "on", "off"});
 }
 
-/// Whether YAML 1.1 may read a text without quotes as something else (yaml.org/type/): it starts
-/// like a number or a sign, or is one of YAML's own words.
+/// Whether YAML 1.1 may read an unquoted text as something else (yaml.org/type/), because it starts
+/// like a number or with a sign, or is one of YAML's own words.
 bool reads_otherwise(std::string_view text) {
     const auto begins_word = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '/' ||
@@ -269,7 +270,8 @@ bool reads_otherwise(std::string_view text) {
            is_one_of(text, {"y", "n", "null"});
 }
 
-/// Whether YAML 1.1 reads the same number as this program: it does not for 010, 1e3 and 1_000.
+/// Whether YAML 1.1 reads the word as the same number as this program, which is not the case for
+/// 010, 1e3 and 1_000.
 bool is_yaml_number(std::string_view word) {
     if (!finite_number(word)) return false;
     if (word[0] == '+' || word[0] == '-') word.remove_prefix(1);
@@ -283,7 +285,7 @@ bool is_yaml_number(std::string_view word) {
 }
 
 void emit_text(const std::string& text, YAML::Emitter& out) {
-    // YAML 1.1 treats them as line ends
+    // YAML 1.1 treats these two characters as line ends
     if (text.find("\u2028") != std::string::npos || text.find("\u2029") != std::string::npos)
         out << YAML::EscapeNonAscii << YAML::DoubleQuoted;
     else if (reads_otherwise(text))
@@ -328,8 +330,8 @@ void emit(const Node& node, YAML::Emitter& out) {
 
 namespace {
 
-/// Whether, inside brackets, a text without quotes ends with a question mark, which yaml-cpp takes
-/// for the beginning of a key. `line`: from 0.
+/// Whether, inside brackets, an unquoted text ends with a question mark, which yaml-cpp takes for
+/// the beginning of a key. `line` is counted from 0.
 bool ends_with_question(const std::string& text, int line) {
     std::istringstream in(text);
     std::string one;
@@ -345,7 +347,7 @@ Node parse_yaml(const std::string& text, const std::string& file, Words words) {
         std::istringstream in(text);
         YAML::Parser parser(in);
         TreeBuilder builder(file, words);
-        // the second document is refused; YAML::LoadAll() never ends at a stray comma
+        // the second document is refused here; YAML::LoadAll() would never end at a stray comma
         while (parser.HandleNextDocument(builder)) {
         }
         return builder.take();

@@ -35,7 +35,7 @@ uint32_t nobodys_guess() {
     return out;
 }
 
-/// Makes a new folder next to `file`; only this user can enter the folder.
+/// Creates a new folder next to `file` that only this user can enter.
 std::string make_folder(const std::string& file) {
     for (int tries = 0; tries < 100; ++tries) {
         std::string folder =
@@ -46,8 +46,9 @@ std::string make_folder(const std::string& file) {
     throw not_written(file, std::strerror(errno));
 }
 
-/// The process that made a part, according to the part's name (`file`.PROCESS-RANDOM.part, in
-/// versions before 0.3 `file`.PROCESS.part), or 0.
+/// The ID of the process that created a part, taken from the part's name
+/// (`file`.PROCESS-RANDOM.part, in versions before 0.3 `file`.PROCESS.part); 0 if `name` is not the
+/// name of a part.
 int maker_of(std::string_view name, std::string_view file) {
     if (!name.starts_with(file) || !name.ends_with(kPart)) return 0;
     name.remove_prefix(file.size());
@@ -96,7 +97,7 @@ Output::~Output() {
 
 void Output::keep() {
     check_replaceable(file_);
-    struct stat there {};  // the file keeps its permissions
+    struct stat there {};  // the new file gets the permissions of the old one
     constexpr mode_t kPermissions = 07777;
     if (::lstat(file_.c_str(), &there) == 0 &&
         ::chmod(path_.c_str(), there.st_mode & kPermissions) != 0)

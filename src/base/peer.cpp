@@ -25,14 +25,14 @@ std::string name_of(uid_t uid) {
     return number_text(uid);
 }
 
-/// The process's own name; "" if the process has ended or is hidden.
+/// The name of the program that the process runs; "" if the process has ended or is hidden.
 std::string program_of(pid_t pid) {
     std::string name;
     std::getline(std::ifstream(fmt::format("/proc/{}/comm", pid)), name);
     return mended(name, Lines::one);
 }
 
-/// ", since TIME" for the process; "" if the time is not known.
+/// The text ", since TIME" with the time at which the process started; "" if that time is unknown.
 std::string begin_of(pid_t pid) {
     struct stat is {};
     if (stat(fmt::format("/proc/{}", pid).c_str(), &is) != 0) return "";

@@ -1,5 +1,5 @@
-// Seeded random numbers. Every consumer draws from a stream of its own, named after its purpose, so
-// that adding a consumer leaves the numbers of all others unchanged.
+// Seeded random numbers. Each consumer draws from its own stream, named after its purpose, so that
+// adding a consumer does not change the numbers of the others.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@ class Random {
   public:
     Random(uint64_t seed, std::string_view stream);
 
-    /// Uniform in [low, high).
+    /// Uniformly distributed in [low, high).
     double uniform(double low, double high);
-    /// Normal with mean 0 and standard deviation 1.
+    /// Normally distributed, with mean 0 and standard deviation 1.
     double normal();
 
   private:

@@ -26,7 +26,7 @@ namespace {
 
 RegularFile::RegularFile(const std::string& file)
     : file_(file),
-      // a pipe without a writer would keep open() waiting
+      // without O_NONBLOCK, open() would wait on a pipe that has no writer
       descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
     if (!descriptor_ && errno != ENXIO) refuse(file, errno);
     struct stat status {};

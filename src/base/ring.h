@@ -1,5 +1,6 @@
-// A ring of variable-size records between one producer thread and one consumer thread. Neither side
-// waits: a full ring refuses the record, and the producer counts refused records.
+// A ring of variable-size records between one producer thread and one consumer thread. Neither
+// thread waits: if the ring is full, it refuses the record, and the producer counts the refused
+// records.
 #pragma once
 
 #include <atomic>
@@ -24,8 +25,8 @@ class Ring {
         bytes_ = std::make_unique<std::byte[]>(size);
     }
 
-    /// Producer: appends a record; false when it does not fit at present. Does not allocate or
-    /// wait.
+    /// For the producer: appends a record; returns false if the record does not fit at present.
+    /// Does not allocate or wait.
     bool push(std::span<const std::byte> record) noexcept {
         const uint64_t head = head_.load(std::memory_order_relaxed);
         const uint64_t tail = tail_.load(std::memory_order_acquire);
@@ -38,7 +39,8 @@ class Ring {
         return true;
     }
 
-    /// Consumer: copies the oldest record to `out`, resizing it; false when the ring is empty.
+    /// For the consumer: copies the oldest record to `out` and resizes `out` to fit; returns false
+    /// if the ring is empty.
     template <class Bytes>
     bool pop(Bytes& out) {
         const uint64_t tail = tail_.load(std::memory_order_relaxed);
@@ -73,23 +75,25 @@ class Ring {
     alignas(64) std::atomic<uint64_t> tail_{0};
 };
 
-/// A Ring for values of one type.
+/// A ring of values of a single type.
 template <class Value>
 class ValueRing {
     static_assert(std::is_trivially_copyable_v<Value>);
 
   public:
-    /// Holds at least `count` values.
+    /// The ring has room for at least `count` values.
     explicit ValueRing(size_t count) : ring_(count * (sizeof(Value) + sizeof(uint32_t))) {
         taken_.reserve(sizeof(Value));
     }
 
-    /// Producer: appends a value; false when the ring is full. Does not allocate or wait.
+    /// For the producer: appends a value; returns false if the ring is full. Does not allocate or
+    /// wait.
     bool push(const Value& value) noexcept {
         return ring_.push(std::as_bytes(std::span(&value, 1)));
     }
 
-    /// Consumer: the oldest value, or nullopt when the ring is empty. Does not allocate or wait.
+    /// For the consumer: removes and returns the oldest value; nullopt if the ring is empty. Does
+    /// not allocate or wait.
     std::optional<Value> pop() {
         if (!ring_.pop(taken_)) return std::nullopt;
         Value value;

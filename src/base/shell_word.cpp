@@ -7,7 +7,7 @@
 namespace dihaptic {
 namespace {
 
-/// Whether shells, and sbatch, take a character literally.
+/// Whether shells and sbatch take a character literally.
 bool is_plain(char letter) {
     constexpr std::string_view kPlain =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@+=:,./-";
@@ -64,7 +64,7 @@ std::optional<std::vector<std::string>> shell_words(std::string_view command) {
                 word += letter;
             }
         }
-        // anything that shell_word() would write differently has another meaning in a shell
+        // a word that shell_word() would write differently has another meaning in a shell
         if (shell_word(word) != command.substr(at, end - at)) return std::nullopt;
         out.push_back(word);
         at = end + 1;

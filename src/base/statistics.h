@@ -9,8 +9,9 @@
 
 namespace dihaptic {
 
-/// The quantile at `share`, taken at the nearest rank; NaN without values. 0.5 gives the median,
-/// which for an even number of values is the upper of the two middle ones.
+/// The quantile for the fraction `share`, taken at the nearest rank; NaN if there are no values. A
+/// share of 0.5 gives the median; for an even number of values, this is the upper of the two middle
+/// ones.
 template <class T>
 double quantile(std::vector<T> values, double share) {
     if (values.empty()) return kUnmeasured;

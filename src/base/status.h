@@ -1,5 +1,5 @@
-// One table of the problems that a tick can report, and of the faults that switch force off.
-// Devices, haptics and the Frame use the same bits.
+// A table of the problems that a tick can report and of the faults that switch force off. Devices,
+// haptics and the Frame use the same bits.
 #pragma once
 
 #include <bit>
@@ -10,8 +10,8 @@
 
 namespace dihaptic {
 
-/// A bit of a tick's status, and of a device's reading. Logs contain the numbers, so a bit never
-/// changes its meaning.
+/// A bit in the status of a tick or of a device's reading. Logs contain these numbers, so a bit
+/// never changes its meaning.
 enum Status : uint32_t {
     kContactsFull = 1u << 0,
     kForceLimited = 1u << 1,
@@ -51,7 +51,7 @@ enum Status : uint32_t {
 constexpr uint32_t kStatusByDevice = kOutsideWorkspace | kForceClamped | kNoMoreData |
                                      kNotAnswering | kForceDropped | kUncalibrated | kDeviceFault;
 
-/// Why force was switched off; the table has a sentence for each.
+/// The reason why force was switched off; the table below has a sentence for each.
 enum class FaultKind {
     none,
     bad_reading,
@@ -70,18 +70,18 @@ enum class FaultKind {
     stopped
 };
 
-/// The sentence for a fault; haptics::describe() fills in the names in braces.
+/// The sentence that describes a fault; haptics::describe() fills in the names in braces.
 struct FaultText {
     FaultKind kind = FaultKind::none;
     std::string_view what{};
-    std::string_view remedy{};  ///< "": the status's remedy
+    std::string_view remedy{};  ///< if empty, the remedy of the status applies
 };
 
 struct StatusRow {
     Status bit;
     std::string_view what;
-    std::string_view remedy;  ///< "": there is none
-    /// The faults with this status. A status without faults leaves force on.
+    std::string_view remedy;  ///< empty if there is none
+    /// The faults that can occur with this status. If there are none, the status leaves force on.
     FaultText faults[2] = {};
 };
 
@@ -205,7 +205,7 @@ constexpr StatusRow kStatusTable[] = {
 constexpr int kStatusBits = static_cast<int>(std::size(kStatusTable));
 constexpr auto kAllStatus = static_cast<uint32_t>((uint64_t{1} << kStatusBits) - 1);
 
-/// The table's row for one bit.
+/// The row of the table for one bit.
 constexpr const StatusRow& describe(Status bit) noexcept {
     return kStatusTable[std::countr_zero(static_cast<uint32_t>(bit))];
 }
@@ -216,17 +216,17 @@ static_assert([] {
     return true;
 }());
 
-/// Calls `use` with each set Status, lowest bit first. Bits that only a later version knows are
-/// ignored.
+/// Calls `use` with each Status bit that is set, lowest bit first. Bits that are defined only in
+/// later versions are ignored.
 template <class Use>
 void for_each_status(uint32_t status, Use use) {
     for (uint32_t left = status & kAllStatus; left != 0; left &= left - 1)
         use(static_cast<Status>(left & ~(left - 1)));
 }
-/// The sentences of all set bits, separated by "; ".
+/// The sentences for all the bits that are set, separated by "; ".
 std::string words(uint32_t status);
 
-/// The row to which a fault belongs; null if there is none.
+/// The row that contains a fault; null if there is none.
 constexpr const StatusRow* row_of(FaultKind kind) noexcept {
     if (kind == FaultKind::none) return nullptr;
     for (const StatusRow& row : kStatusTable) {

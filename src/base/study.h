@@ -1,6 +1,6 @@
-// Information on a study that archives ask for besides its data: experimenters, laboratory and
-// subject. It is part of the experiment file and of the session's record, and has no effect on a
-// session.
+// Information about a study that archives request in addition to the data: experimenters,
+// laboratory and subject. It is part of the experiment file and of the session's record, but has no
+// effect on the session itself.
 #pragma once
 
 #include <string>

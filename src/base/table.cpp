@@ -131,7 +131,7 @@ class CsvParser {
         rows_.push_back(std::move(row_));
         row_.clear();
     }
-    /// Refuses a table that would take all memory: each comma alone makes a cell.
+    /// Refuses a table that would use up all memory, since even a single comma makes a cell.
     void check_size() const {
         if (row_.size() <= kMostColumns && cells_ <= kMostCells) return;
         throw Error({file_, line_}, "",
@@ -179,7 +179,8 @@ CsvFile::CsvFile(const std::string& file) : file_(file), rows_(read_csv(file)) {
 
 namespace {
 
-/// If two columns had the same name, one of them would be ignored, and nothing would show which.
+/// Checks that no two columns have the same name. Otherwise, one of them would be ignored without
+/// notice.
 void check_names(const CsvFile& table) {
     std::set<std::string> seen;
     for (size_t i = 0; i < table.columns().size(); ++i) {
@@ -224,7 +225,7 @@ CsvFile CsvFile::given(const std::string& file, Diagnostics& diagnostics,
             throw Error(table.place(), "", "from here on the table is too large",
                         "Check that it is the right file, or make it smaller.");
         for (std::string& cell : *cells) {
-            // so that all later code finds a number
+            // so that all later code can read the number
             if (table.number(cell)) std::replace(cell.begin(), cell.end(), ',', '.');
         }
         out.lines_.push_back(table.place().line);

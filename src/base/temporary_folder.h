@@ -4,8 +4,8 @@
 
 namespace dihaptic {
 
-/// A new folder in the system's temporary folder, deleted with everything in it on destruction.
-/// Throws Error when it cannot be made.
+/// A new folder in the system's temporary folder. On destruction the folder is deleted with
+/// everything in it. Throws Error if the folder cannot be created.
 class TemporaryFolder {
   public:
     TemporaryFolder();

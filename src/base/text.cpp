@@ -15,20 +15,20 @@ unsigned char byte_of(std::string_view text, size_t i) {
     return static_cast<unsigned char>(text[i]);
 }
 
-/// Length of the character that starts with this byte; 0 if none does.
+/// Length of the character that starts with this byte; 0 if no character starts with it.
 size_t length_by(unsigned char first) {
     if (first < 0x80) return 1;
     if (first < 0xc2 || first > 0xf4) return 0;
     return first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
 }
 
-/// Whether a second byte is outside the range that the first byte allows.
+/// Whether the second byte of a character is outside the range that the first byte allows.
 bool is_out_of_range(unsigned char first, unsigned char second) {
     return (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
            (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f);
 }
 
-/// The code of a control character (C0, DEL, C1), or -1.
+/// The code of a control character (C0, DEL, C1), or -1 if it is another character.
 int control(std::string_view character) {
     const unsigned char first = byte_of(character, 0);
     if (character.size() == 1 && (first < 0x20 || first == 0x7f)) return first;
@@ -37,16 +37,16 @@ int control(std::string_view character) {
     return -1;
 }
 
-/// Whether readers of YAML drop or refuse a character: a byte order mark, or one of the two
+/// Whether YAML readers drop or refuse this character: a byte order mark or one of the two
 /// noncharacters.
 bool is_mark(std::string_view character) {
     return character == "\xef\xbb\xbf" || character == "\xef\xbf\xbe" ||
            character == "\xef\xbf\xbf";
 }
 
-/// Whether a character displaces the text after it on the screen, or moves it to another line. In
-/// a single line, such as a name or a command, it would disguise the text (Unicode Technical
-/// Report 36, 2.10).
+/// Whether a character shifts the text after it on the screen, or moves that text to another line.
+/// In a single line, such as a name or a command, the character could disguise the text (Unicode
+/// Technical Report 36, 2.10).
 bool is_reordering(std::string_view character) {
     if (character.size() != 3 || !character.starts_with("\xe2")) return false;
     const unsigned char second = byte_of(character, 1);

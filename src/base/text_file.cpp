@@ -19,8 +19,8 @@
 namespace dihaptic {
 namespace {
 
-/// Length of the character that starts at i [bytes]; 0 if the bytes are not a character, or are a
-/// control character that does not belong in a text file.
+/// Length of the character that starts at i [bytes]; 0 if the bytes do not form a character, or
+/// form a control character that is not allowed in a text file.
 size_t character(std::string_view text, size_t i) {
     const auto first = static_cast<unsigned char>(text[i]);
     const bool white = first == '\t' || first == '\n' || first == '\r' || first == '\f';
@@ -28,7 +28,7 @@ size_t character(std::string_view text, size_t i) {
     return utf8_length(text.substr(i));
 }
 
-/// Reports the fault at the start of the remaining text.
+/// Throws Error for the fault at the start of the remaining text.
 [[noreturn]] void refuse(std::string_view rest, const Place& place) {
     const auto fault = find_fault(rest.substr(0, 1));
     if (!fault || static_cast<unsigned char>(rest.front()) >= 0x80)

@@ -1,4 +1,4 @@
-// A table of texts, as read from a file and written to another one.
+// A table of texts, as read from one file and written to another.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 namespace dihaptic {
 
 struct TextTable {
-    std::string name;  ///< name of its file, e.g. "trials.csv"
+    std::string name;  ///< name of the table's file, e.g. "trials.csv"
     std::vector<Table::Column> columns;
-    std::vector<std::vector<std::string>> rows;  ///< without the header
+    std::vector<std::vector<std::string>> rows;  ///< the rows after the header
 };
 
-/// The same table with each number as it is written to a CSV file.
+/// Returns the table with each number in the form in which it is written to a CSV file.
 TextTable text_of(const Table& table, const std::string& name);
-/// The table as CSV, with its header.
+/// Returns the table as CSV, including the header.
 std::string to_csv(const TextTable& table);
 
 }  // namespace dihaptic

@@ -159,7 +159,7 @@ NameInUnit split_unit(std::string_view key) {
     for (const Kind& kind : kKinds) {
         for (const Unit& unit : kind.units) {
             const size_t length = unit.suffix.size() + 1;
-            // the longest unit that fits: N_m, and not m
+            // keeps the longest unit that matches: N_m rather than m
             if (key.size() <= length || key.size() - length >= out.name.size()) continue;
             if (key.ends_with(unit.suffix) && key[key.size() - length] == '_')
                 out = {key.substr(0, key.size() - length), kind.quantity, unit.si};

@@ -1,5 +1,6 @@
-// Units of values in files. Inside the program everything is SI. In a file the key of a physical
-// value names its unit: size_mm, mass_g, stiffness_N_m; any unit of the right kind is accepted.
+// Units of values in files. Inside the program, all values are in SI units. In a file, the key of a
+// physical value includes the unit: size_mm, mass_g, stiffness_N_m; any unit of the right kind is
+// accepted.
 #pragma once
 
 #include <numbers>
@@ -12,7 +13,7 @@ namespace dihaptic {
 
 constexpr double kDegree = std::numbers::pi / 180;  ///< [rad]
 
-/// The kind of a quantity. Values are written in the first unit of their kind.
+/// The kind of a quantity. Values are written in the first unit listed for their kind.
 enum class Quantity {
     none,  ///< a pure number: the key has no unit
     length,
@@ -38,11 +39,12 @@ enum class Quantity {
 };
 
 struct Unit {
-    std::string_view suffix;  ///< as in a key, e.g. "mm"
-    double si;                ///< this unit in SI units
+    std::string_view suffix;  ///< the form used in a key, e.g. "mm"
+    double si;                ///< value of this unit in SI units
 };
 
-/// The exponents of metre, kilogram and second in a unit. Angles are pure numbers, in radians.
+/// The exponents of metre, kilogram and second in a unit. Angles are pure numbers, measured in
+/// radians.
 struct Dimension {
     int m = 0;
     int kg = 0;
@@ -57,41 +59,42 @@ struct Dimension {
     }
 };
 
-/// The units in which a quantity may be given, the SI unit first; empty for Quantity::none.
+/// The units in which a quantity may be given, with the SI unit first; empty for Quantity::none.
 std::span<const Unit> units(Quantity quantity);
 
-/// The unit of any quantity that has this suffix; null if there is none.
+/// The unit with this suffix, for any quantity; null if there is none.
 const Unit* find_unit(std::string_view suffix);
 
-/// A unit that may follow a number in an expression, by its suffix (mm, N_m), in SI units.
+/// A unit that may follow a number in an expression, found by its suffix (mm, N_m), expressed in SI
+/// units.
 struct UnitInSi {
     double si = 1;
     Dimension dimension;
 };
-/// Nullopt if no quantity has a unit with this suffix.
+/// The unit with this suffix; nullopt if no quantity has such a unit.
 std::optional<UnitInSi> find_unit_in_si(std::string_view suffix);
 
-/// The dimension of a unit in the usual notation: "N*s/m", "1", "ns". The unit must be composed of
-/// m, kg, s, ns, N, Hz, rad and 1.
+/// A unit in the usual notation, e.g. "N*s/m", "1" or "ns", expressed in SI units. The unit must be
+/// composed of m, kg, s, ns, N, Hz, rad and 1.
 UnitInSi unit_in_si(std::string_view symbol);
 Dimension dimension(Quantity quantity);
-/// The SI unit in the usual notation, e.g. "N/m"; "1" for a pure number.
+/// The SI unit with this dimension in the usual notation, e.g. "N/m"; "1" for a pure number.
 std::string si_symbol(const Dimension& dimension);
-/// A name with its unit, e.g. "wait_ms".
+/// A name that may end with a unit, e.g. "wait_ms".
 struct NameInUnit {
-    std::string_view name;  ///< without its unit, if it has one
+    std::string_view name;  ///< the name without its unit, if it has one
     Quantity quantity = Quantity::none;
-    double si = 1;  ///< its unit in SI units
+    double si = 1;  ///< value of the unit in SI units
 };
 NameInUnit split_unit(std::string_view key);
 
-/// "length", "stiffness", ...: for messages.
+/// The name of a quantity for use in messages: "length", "stiffness", ...
 std::string_view name(Quantity quantity);
 
-/// The key with which a value is written, e.g. "size_m".
+/// The key under which a value is written, e.g. "size_m".
 std::string si_key(std::string_view field, Quantity quantity);
 
-/// The SI unit in the usual notation, e.g. "N/m"; "1" for Quantity::none.
+/// The SI unit of a quantity in the usual notation, e.g. "N/m"; "1" for Quantity::none.
 std::string_view si_symbol(Quantity quantity);
 
 }  // namespace dihaptic

@@ -8,7 +8,7 @@ namespace dihaptic {
 UnixAddress UnixAddress::of_name(const std::string& name) noexcept {
     UnixAddress out;
     const size_t length = std::min(name.size(), sizeof(out.address_.sun_path) - 1);
-    std::copy_n(name.begin(), length, out.address_.sun_path + 1);  // after a zero byte: abstract
+    std::copy_n(name.begin(), length, out.address_.sun_path + 1);  // zero byte: abstract address
     out.size_ = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + length);
     return out;
 }
@@ -33,7 +33,7 @@ Descriptor unix_socket(int type) noexcept {
 }
 
 std::pair<Descriptor, Descriptor> unix_socket_pair(int type) noexcept {
-    int ends[2] = {-1, -1};  // unchanged if the call fails
+    int ends[2] = {-1, -1};  // these values stay unchanged if the call fails
     ::socketpair(AF_UNIX, type | SOCK_CLOEXEC, 0, ends);
     return {Descriptor(ends[0]), Descriptor(ends[1])};
 }

@@ -1,5 +1,5 @@
-// UNIX sockets connect programs on one machine. Programs that this one starts do not inherit them.
-// peer.h tells who is at the other end.
+// UNIX sockets connect programs on the same machine. Programs that this program starts do not
+// inherit its sockets. peer.h tells which program is at the other end.
 #pragma once
 
 #include <sys/socket.h>
@@ -13,16 +13,16 @@
 
 namespace dihaptic {
 
-/// Where a socket can be found.
+/// The address of a socket.
 class UnixAddress {
   public:
-    /// An abstract address is not a file, and is free again as soon as its program has ended. A
-    /// name that is too long is cut, in the same way by all programs.
+    /// An abstract address, which is not a file and becomes free as soon as its program has ended.
+    /// Names that are too long are truncated, in the same way by all programs.
     static UnixAddress of_name(const std::string& name) noexcept;
-    /// nullopt if the path is too long for an address.
+    /// The address of a socket file; nullopt if the path is too long for an address.
     static std::optional<UnixAddress> of_file(const std::string& path) noexcept;
 
-    /// Return false, and set errno, if they fail.
+    /// These functions return false and set errno if they fail.
     bool bind(const Descriptor& socket) const noexcept;
     bool connect(const Descriptor& socket) const noexcept;
 
@@ -34,10 +34,10 @@ class UnixAddress {
     socklen_t size_ = sizeof(sockaddr_un);
 };
 
-/// A new socket, of a type such as SOCK_STREAM | SOCK_NONBLOCK. On failure the descriptor is not
-/// open, and errno is set.
+/// A new socket of the given type, e.g. SOCK_STREAM | SOCK_NONBLOCK. On failure the descriptor is
+/// not open, and errno is set.
 Descriptor unix_socket(int type) noexcept;
-/// The same for two sockets that are connected with each other.
+/// Like unix_socket(), for two sockets that are connected to each other.
 std::pair<Descriptor, Descriptor> unix_socket_pair(int type) noexcept;
 
 }  // namespace dihaptic

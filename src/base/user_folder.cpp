@@ -5,7 +5,8 @@
 namespace dihaptic {
 namespace {
 
-/// A relative path is ignored, as the specification demands.
+/// Returns one of the user's folders. A relative path in the variable is ignored, as the
+/// specification demands.
 std::string folder(const char* variable, const char* below_home) {
     if (const char* given = std::getenv(variable); given != nullptr && *given == '/') return given;
     const char* home = std::getenv("HOME");

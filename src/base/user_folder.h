@@ -6,11 +6,13 @@
 
 namespace dihaptic {
 
-/// Folder for settings, usually ~/.config; "" if the user has no home.
+/// Folder for settings, usually ~/.config; "" if the user has no home directory.
 std::string user_config();
-/// Folder for files of all studies, usually ~/.local/share; "" if the user has no home.
+/// Folder for files that are used in all studies, usually ~/.local/share; "" if the user has no
+/// home directory.
 std::string user_data();
-/// Folder for files that can be made again, usually ~/.cache; "" if the user has no home.
+/// Folder for files that can be regenerated, usually ~/.cache; "" if the user has no home
+/// directory.
 std::string user_cache();
 
 }  // namespace dihaptic

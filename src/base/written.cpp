@@ -50,7 +50,7 @@ class WrittenBuilder final : public YAML::EventHandler {
         out.kind = kind;
         out.at = static_cast<size_t>(std::max(0, mark.pos)) + skipped_;
         out.column = std::max(0, mark.column);
-        // yaml-cpp uses the tag ? for nodes without one, and ! for quoted texts
+        // yaml-cpp uses the tag ? for nodes without a tag, and ! for quoted texts
         out.alone = anchor == YAML::NullAnchor && (tag.empty() || tag == "?" || tag == "!");
         return out;
     }

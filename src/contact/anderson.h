@@ -1,5 +1,5 @@
-// Anderson acceleration of a fixed-point iteration x = g(x) (Walker and Ni 2011): the next x is
-// the combination of the last points with the smallest linearised residual g(x) - x.
+// Anderson acceleration of a fixed-point iteration x = g(x) (Walker and Ni 2011): the next x is the
+// combination of the last few points that has the smallest linearised residual g(x) - x.
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,8 +11,8 @@ namespace dihaptic::contact {
 class Anderson {
   public:
     static constexpr int kDepth = 10;
-    /// A column is left out if no more than this fraction of it lies outside the span of the newer
-    /// columns.
+    /// A difference column is left out if at most this fraction of it lies outside the span of the
+    /// newer columns.
     static constexpr double kNothingNew = 1e-8;
 
     void reserve(size_t size) {
@@ -30,14 +30,14 @@ class Anderson {
         f_.resize(size);
         forget();
     }
-    /// Forgets the last points; to be called when they are no longer useful.
+    /// Forgets the stored points. To be called when they are no longer useful.
     void forget() noexcept {
         count_ = 0;
         next_ = 0;
         has_last_ = false;
     }
 
-    /// Replaces x by the next point; g is the image of x.
+    /// Replaces x with the next point; g is the image of x, i.e. g(x).
     void advance(std::vector<double>& x, const std::vector<double>& g) noexcept {
         const size_t n = x.size();
         if (has_last_) {
@@ -55,7 +55,7 @@ class Anderson {
         }
         has_last_ = true;
 
-        // least squares f = sum gamma_k df_k, by modified Gram-Schmidt from the newest column back
+        // solve f = sum gamma_k df_k (least squares) by modified Gram-Schmidt, newest column first
         std::array<std::array<double, kDepth>, kDepth> R{};
         std::array<double, kDepth> gamma{};
         std::array<size_t, kDepth> used{};

@@ -6,11 +6,11 @@
 namespace dihaptic::contact {
 namespace {
 
-/// Blocks reserved per node: a pile of a hundred bodies fills about ten per node.
+/// Blocks reserved per node; a pile of a hundred bodies needs about ten per node.
 constexpr size_t kBlocksPerNode = 24;
 constexpr size_t kWordBits = 64;
 
-/// Word and bit of a node in a bit set of nodes.
+/// Index of the word, and mask of the bit, that represent a node in a bit set of nodes.
 size_t word_of(int node) noexcept {
     return static_cast<size_t>(node) / kWordBits;
 }
@@ -18,7 +18,7 @@ uint64_t bit_of(int node) noexcept {
     return uint64_t{1} << (static_cast<size_t>(node) % kWordBits);
 }
 
-/// Inverts A in place by Gauss-Jordan elimination with pivoting. It works on columns, which are
+/// Inverts A in place by Gauss-Jordan elimination with pivoting. Operates on columns, which are
 /// contiguous in memory.
 void invert(BlockLu::Block& A) noexcept {
     BlockLu::Block inverse = BlockLu::Block::Identity();
@@ -96,10 +96,10 @@ bool BlockLu::analyse(int nodes, std::span<const std::pair<int, int>> edges,
     return true;
 }
 
-/// Counts the work for each node: its inversion, and its elimination from its later neighbours and
-/// from each pair of them.
+/// Counts the work for each node: inverting its block, and eliminating it from its later neighbours
+/// and from each pair of them.
 void BlockLu::count_products() noexcept {
-    constexpr int64_t kInverse = 8;  // in products that take the same time
+    constexpr int64_t kInverse = 8;  // measured in products that take the same time
     products_ = 0;
     for (size_t k = 0; k < order_.size(); ++k) {
         const auto others = static_cast<int64_t>(later(k).size());
@@ -144,8 +144,8 @@ int BlockLu::degree_of(int node) noexcept {
     return degree;
 }
 
-/// Among the remaining nodes that vary (or, without `varies`, those that do not), the first with
-/// the fewest neighbours (minimum degree).
+/// Returns the node with the fewest neighbours (minimum degree), the first one in a tie, among the
+/// remaining nodes that vary or, if `varies` is false, among those that do not.
 int BlockLu::least_connected(int nodes, bool varies) const noexcept {
     int least = -1;
     for (int i = 0; i < nodes; ++i) {
@@ -159,8 +159,8 @@ int BlockLu::least_connected(int nodes, bool varies) const noexcept {
     return least;
 }
 
-/// Eliminates a node: its neighbours become neighbours of each other, with new blocks for
-/// fill-in. False if the memory does not suffice.
+/// Eliminates a node: its neighbours become neighbours of each other, with new blocks for fill-in.
+/// Returns false if the memory does not suffice.
 bool BlockLu::eliminate(int node) noexcept {
     eliminated_[static_cast<size_t>(node)] = 1;
     order_.push_back(node);

@@ -6,10 +6,10 @@
 namespace dihaptic::contact {
 namespace {
 
-/// L with L L' = A for a positive semi-definite A; a zero pivot gives a zero column.
+/// Returns L with L L' = A for a positive semi-definite A; a zero pivot gives a zero column.
 Mat6 root(const Mat6& A) noexcept {
     Mat6 L = Mat6::Zero();
-    // lengths and angles have different units, so their pivots differ in size
+    // rows for translation and rotation have different units, so their pivots differ in size
     const double linear = 1e-14 * A.diagonal().head<3>().maxCoeff();
     const double angular = 1e-14 * A.diagonal().tail<3>().maxCoeff();
     for (int k = 0; k < 6; ++k) {
@@ -50,7 +50,7 @@ void BodySystem<Dim>::assemble(const ContactProblem& problem) noexcept {
     finite_ = true;
     for (size_t i = 0; i < bodies; ++i) {
         root_[i] = root(problem.bodies[i].inverse_mass);
-        // the square root would hide values that are not numbers
+        // must be checked here: the square root would hide non-finite values
         finite_ = finite_ && std::isfinite(problem.bodies[i].inverse_mass.sum());
     }
     for (size_t j = 0; j < contacts; ++j) assemble_row(problem, problem.contacts[j], rows_[j]);
@@ -112,7 +112,7 @@ void BodySystem<Dim>::assemble_row(const ContactProblem& problem, const ProblemC
     fill(row.Ht_b, contact.b, contact.p_BC_W, 1);
     row.q[0] += contact.bias;
     row.q.template segment<2>(1) += contact.slip;
-    // bodies that no impulse can separate, e.g. on rails deep inside a fixed body, get no contact
+    // no contact if no impulse can separate the bodies, e.g. on rails deep inside a fixed body
     if (diagonal[0] == 0 && contact.compliance == 0) row.q[0] = std::max(row.q[0], 0.0);
     const int rows = D == 4 && diagonal[D - 1] > 0 ? 4 : 3;
     const double mean = diagonal.sum() / rows;
@@ -123,7 +123,7 @@ void BodySystem<Dim>::assemble_row(const ContactProblem& problem, const ProblemC
     row.law.joint = nullptr;
     row.law.mu = contact.friction;
     row.compliance = contact.compliance * row.unit * row.unit;
-    // the sum is not finite if any term is not a number or overflows
+    // the sum is not finite if any term overflows or is not a number
     finite_ = finite_ && std::isfinite(mean + row.q.squaredNorm() + row.law.mu + row.compliance);
     const double normal = diagonal[0] * row.unit * row.unit + row.compliance;
     const double tangent = (diagonal.sum() - diagonal[0]) * row.unit * row.unit / (rows - 1);

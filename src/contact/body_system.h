@@ -1,12 +1,13 @@
-// BodySystem is the contact problem in body space, scaled: u = H y + q, y = H' r, W = H H'. W is
-// never formed; Newton's equation is solved by a matrix over the bodies instead (Woodbury):
+// BodySystem represents the scaled contact problem in body space: u = H y + q, y = H' r, W = H H'.
+// W is never formed; instead, the Newton equation is solved with a matrix in which each body has a
+// row (Woodbury):
 //
 //     (I + G H H') d = -c   <=>   (I + H' G H) y = -H' c,   d = -c - G H y
 //
 // H contains the inverse square roots of mass and inertia, and each contact's rows are divided by
 // the root of the mean diagonal of its block of W. Impulses are then r = scale * r^, velocities u =
-// u^ / scale, and nothing depends on units. Soft contacts add their compliance to the diagonal of
-// W.
+// u^ / scale, and nothing depends on the choice of units. Soft contacts add their compliance to the
+// diagonal of W.
 #pragma once
 
 #include <algorithm>
@@ -28,35 +29,35 @@ class BodySystem {
     using Vec = Eigen::Matrix<double, D, 1>;
 
     void reserve(int bodies, int contacts, int joints);
-    /// Allocates if the problem is larger than reserved.
+    /// Sets up the scaled system. Allocates memory if the problem is larger than reserved.
     void assemble(const ContactProblem& problem) noexcept;
-    /// Counts the work of all following calls.
+    /// Adds the work of all subsequent calls to `work`.
     void count_in(Work& work) noexcept { work_ = &work; }
     Work& work() const noexcept { return *work_; }
-    /// Cost of a step of Newton's method, without the contact law [visits].
+    /// Cost of one step of Newton's method, excluding the contact law [visits].
     int64_t step_visits() const noexcept {
         return Visits::matrix * static_cast<int64_t>(size()) + Visits::product * lu_.products();
     }
-    /// Finds the matrix for newton_step(). False if the matrix is larger than reserved.
+    /// Prepares the matrix for newton_step(). Returns false if it is larger than reserved.
     bool prepare_newton() noexcept;
 
-    /// Contacts, then joints.
+    /// Number of contacts and joints; contacts have the lower indices.
     size_t size() const noexcept { return rows_.size(); }
     bool has_joints() const noexcept { return !joints_.empty(); }
     /// Whether every number in the problem is finite and usable.
     bool is_finite() const noexcept { return finite_; }
     const Scale& scale(size_t j) const noexcept { return rows_[j].law; }
     const Vec& q(size_t j) const noexcept { return rows_[j].q; }
-    /// Ratio of an impulse to the scaled impulse.
+    /// Factor that converts a scaled impulse into an impulse.
     double unit(size_t j) const noexcept { return rows_[j].unit; }
 
-    /// u = W r + q.
+    /// Computes u = W r + q.
     void velocity(std::span<const Vec> r, std::span<Vec> u) noexcept;
-    /// Solves (I + G W) d = -c; changes G and c.
+    /// Solves (I + G W) d = -c for d. Overwrites G and c.
     void newton_step(std::span<Linearised<D>> contacts, std::span<Vec> d) noexcept;
-    /// Does projected Gauss-Seidel sweeps on a law, until a sweep changes no contact's velocity by
-    /// more than `enough` [m/s], or until the allowed work is used up. Returns the number of
-    /// sweeps.
+    /// Runs projected Gauss-Seidel sweeps on a contact law until a sweep changes no contact's
+    /// velocity by more than `enough` [m/s], or until the allowed work is used up. Returns the
+    /// number of sweeps.
     template <class Law>
     int sweep(const Law& law, std::span<Vec> r, int most, double enough = -1) noexcept {
         gather(r);
@@ -68,16 +69,16 @@ class BodySystem {
         }
         return most;
     }
-    /// Block of W for contacts j (rows) and k (columns).
+    /// The block of W in the rows of contact j and the columns of contact k.
     Eigen::Matrix<double, Dim, Dim> delassus_block(size_t j, size_t k) const noexcept;
 
-    /// Computes the changes of all bodies' velocities due to impulses; change() returns one body's:
-    /// linear, then angular.
+    /// Computes the velocity changes of all bodies due to the impulses r. change() returns the
+    /// result for one body: linear velocity, then angular velocity.
     void body_velocity(std::span<const Vec> r) noexcept;
     Vec6 change(int body) const noexcept;
 
   private:
-    /// One sweep; returns the square of the largest change of a contact's velocity.
+    /// Runs one sweep. Returns the square of the largest change in a contact's velocity.
     template <class Law>
     double pass(const Law& law, std::span<Vec> r) noexcept {
         double most = 0;
@@ -99,7 +100,7 @@ class BodySystem {
         return std::max(change, pass(law.friction, r));
     }
 
-    /// Transposed, so that a column fills whole SIMD packets.
+    /// H is stored transposed, so that a column fills whole SIMD packets.
     using Ht = Eigen::Matrix<double, 6, D>;
     struct ContactRows {
         Ht Ht_a;
@@ -107,10 +108,10 @@ class BodySystem {
         Vec q;
         Scale law;
         double unit = 1;
-        double compliance = 0;  // of a contact along its normal; a joint's is in `law`
+        double compliance = 0;  // of a contact along its normal; for a joint, see `law`
         int a = kFixed;
         int b = kFixed;
-        int aa = -1, bb = -1, ab = -1, ba = -1;  // indices of blocks in the matrix of bodies
+        int aa = -1, bb = -1, ab = -1, ba = -1;  // block indices in the body matrix
     };
 
     void assemble_row(const ContactProblem& problem, const ProblemContact& contact,
@@ -118,21 +119,21 @@ class BodySystem {
     void assemble_joint(const ContactProblem& problem, const ProblemJoint& joint, ContactRows& row,
                         JointScale& scale) noexcept;
     void find_blocks(ContactRows& row) const noexcept;
-    /// Whether a row's G is the same in every step of Newton's method.
+    /// Whether the G of a row is the same in every step of Newton's method.
     static bool is_linear(const ContactRows& row) noexcept {
         return row.law.joint != nullptr && row.law.joint->linear;
     }
-    /// Adds H' G H of one contact or joint to the matrix.
+    /// Adds H' G H of one contact or joint to the body matrix.
     void add_to_matrix(const ContactRows& row, const Linearised<D>& contact) noexcept;
-    /// Moves the compliance of contacts from W to G and c.
+    /// Moves the compliance of soft contacts from W to G and c.
     void soften(std::span<Linearised<D>> contacts) const noexcept;
     void gather(std::span<const Vec> r) noexcept;
-    /// Adds one contact's H' r to y.
+    /// Adds H' r of one contact to y.
     void apply(const ContactRows& row, const Vec& r) noexcept {
         if (row.a != kFixed) y_[static_cast<size_t>(row.a)].noalias() += row.Ht_a * r;
         if (row.b != kFixed) y_[static_cast<size_t>(row.b)].noalias() += row.Ht_b * r;
     }
-    /// Adds one contact's H y to u.
+    /// Adds H y for one contact to u.
     void add_velocity(const ContactRows& row, Vec& u) const noexcept {
         if (row.a != kFixed) u.noalias() += row.Ht_a.transpose() * y_[static_cast<size_t>(row.a)];
         if (row.b != kFixed) u.noalias() += row.Ht_b.transpose() * y_[static_cast<size_t>(row.b)];
@@ -140,13 +141,13 @@ class BodySystem {
 
     std::vector<ContactRows> rows_;
     std::vector<JointScale> joints_;
-    std::vector<Mat6> root_;  // of the inverse mass matrix, by body
+    std::vector<Mat6> root_;  // for each body, the root of its inverse mass matrix
     std::vector<Vec6> y_;
     std::vector<std::pair<int, int>> edges_;
-    std::vector<char> varies_;  // by body: whether it has a row that is not linear
+    std::vector<char> varies_;  // for each body, whether it has a row that is not linear
     BlockLu lu_;
     Work* work_ = nullptr;
-    bool kept_ = false;  // whether the matrix contains the linear rows' contribution
+    bool kept_ = false;  // whether the matrix already contains the contribution of the linear rows
     bool finite_ = true;
 };
 

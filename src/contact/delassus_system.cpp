@@ -51,7 +51,7 @@ void DelassusSystem::newton_step(std::span<const Linearised<3>> contacts, std::s
         rows.noalias() = contact.G * W_.middleRows<3>(row);
         rows.middleCols<3>(row) += Mat3::Identity();
         b.segment<3>(row) = -contact.c;
-        for (Eigen::Index i = row; i < row + 3; ++i) {  // rows differ in size, as 1/rho and 1 do
+        for (Eigen::Index i = row; i < row + 3; ++i) {  // rows differ in size like 1/rho and 1
             const double by = 1 / A.row(i).lpNorm<Eigen::Infinity>();
             A.row(i) *= by;
             b[i] *= by;

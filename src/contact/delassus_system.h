@@ -1,5 +1,5 @@
-// DelassusSystem is the contact problem in contact space, scaled as in BodySystem, with W as a
-// dense matrix. It serves problems that are given without bodies, and allocates.
+// DelassusSystem represents the contact problem in contact space, scaled as in BodySystem, with a
+// dense matrix W. It is used for problems that are given without bodies. It allocates memory.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class DelassusSystem {
     Vec q(size_t j) const noexcept { return q_.segment<3>(3 * static_cast<Eigen::Index>(j)); }
     double unit(size_t j) const noexcept { return units_[j]; }
 
-    /// Work is counted as for bodies; its exact amount does not matter, since such problems are
+    /// Work is counted as in BodySystem. The exact amount does not matter, since these problems are
     /// solved outside ticks.
     void count_in(Work& work) noexcept { work_ = &work; }
     Work& work() const noexcept { return *work_; }

@@ -1,5 +1,5 @@
-// The order in which methods are tried until one solves the problem. README.md gives the limits
-// of their work.
+// The order in which solution methods are tried until one succeeds. README.md lists the work limits
+// of the methods.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace dihaptic::contact {
 
 struct HandOver {
     Solver asked;
-    std::array<Route, 4> answer;  ///< `none`: no further method
+    std::array<Route, 4> answer;  ///< `none` means that there is no further method
 };
 constexpr std::array<HandOver, kSolvers> kHandOver{{
     {Solver::sequential_impulse, {Route::sequential_impulse}},
@@ -23,8 +23,8 @@ constexpr std::array<HandOver, kSolvers> kHandOver{{
      {Route::newton, Route::coarse_polygon, Route::staggered_projections, Route::sweeps}},
 }};
 
-/// The methods that are tried for the solver `asked`. If work is bounded, sweeps finish the
-/// first method's answer; if work or memory does not suffice for an exact answer,
+/// Returns the methods to try if the requested solver is `asked`. If work is bounded, the first
+/// method's answer is finished by sweeps; if work or memory does not suffice for an exact answer,
 /// only sweeps are used.
 constexpr std::array<Route, 4> hand_over(Solver asked, bool exact, bool bounded) {
     for (const HandOver& row : kHandOver) {

@@ -5,8 +5,8 @@
 //     Phi_N = r_N - max(0, r_N - a_N u^_N)
 //     Phi_T = r_T - P_disc(mu g)(r_T - a_T u^_T)      g = max(0, r_N - a_N u^_N)
 //
-// With A = dPhi/du^ and B = dPhi/dr, Newton's step solves A (W + rho) d + B d = -Phi. Multiplied by
-// K = (B + rho A)^-1, which has a closed form for each state of the contact, this becomes
+// With A = dPhi/du^ and B = dPhi/dr, Newton's step solves A (W + rho) d + B d = -Phi. Multiplying
+// it by K = (B + rho A)^-1, which has a closed form for each state of the contact, gives
 //
 //     (I + G W) d = -c        G = K A,  c = K Phi
 //
@@ -16,14 +16,14 @@
 //                   [ mu z/rho     beta (I - z z') ]  beta = a_T s / (1 - s + rho a_T s),
 //                                                    s = mu g / |r_T - a_T u^_T|
 //
-// A joint's rows each have r = clamp(r - a (u + gamma r)) between their bounds, with gamma the
+// Each row of a joint satisfies r = clamp(r - a (u + gamma r)) between its bounds, with gamma the
 // compliance:
 //
 //     between   G = 1 / (gamma + rho)                c = (u^ + gamma r) / (gamma + rho)
 //     at a bound  G = 0                              c = r - bound
 //
 // Rows without bounds are linear equations, which Newton's method solves in a single step, however
-// large they are. Their rho is kLinearRho or none, so their G is always the same.
+// large the impulses are. For such rows, rho is kLinearRho or zero, so their G never changes.
 //
 // rho regularises a singular W (four coplanar contacts); it has no effect at the fixed point r =
 // r_k. Impulses and velocities are those of a scaled system, in which the diagonal blocks of W have
@@ -38,46 +38,46 @@
 
 namespace dihaptic::contact {
 
-/// The rows of a joint in a scaled system.
+/// Scaling and compliance of a joint's rows in a scaled system.
 struct JointScale {
     Mat3 W = Mat3::Zero();
     Vec3 a = Vec3::Ones();  ///< 1 / (W_ii + compliance)
     Vec3 compliance = Vec3::Zero();
     Vec3 low = Vec3::Zero();
     Vec3 high = Vec3::Zero();
-    bool linear = false;  ///< no row has bounds, except rows without effect
+    bool linear = false;  ///< no row has bounds, except for rows that have no effect
 
     bool is_bounded(int row) const noexcept {
         return std::isfinite(low[row]) || std::isfinite(high[row]);
     }
 };
 
-/// The regularisation of rows without bounds: their compliance, or rho if there is hardly any
+/// The regularisation for rows without bounds: their compliance, or rho if there is hardly any
 /// compliance, since a G much larger than 1 / rho would cost Newton's step its precision. A larger
-/// rho would require many proximal steps for a chain of joints, because motions of its whole length
-/// change its rows little.
+/// rho would require many proximal steps for a chain of joints, because motions of the whole chain
+/// barely change its rows.
 constexpr double kLinearRho = 1e-7;
 constexpr double kLeastCompliance = 1e-9;
 
-/// Scaling of one contact, or of a joint's rows, in a scaled system.
+/// Scaling factors of one contact, or of the rows of one joint, in a scaled system.
 struct Scale {
     double mu = 0;
     double a_n = 1;                     ///< 1 / W_NN
     double a_t = 1;                     ///< 1 / mean diagonal of W_TT
-    const JointScale* joint = nullptr;  ///< null: a contact
+    const JointScale* joint = nullptr;  ///< null for a contact
 };
 
-/// One contact's share of a Newton step.
+/// The contribution of one contact to a Newton step.
 template <int D>
 struct Linearised {
     Eigen::Matrix<double, D, D> G;
     Eigen::Matrix<double, D, 1> c;
-    bool open = true;  ///< G is zero
+    bool open = true;  ///< true if G is zero
 };
 
 namespace law {
 
-/// The rows of a joint, which do not depend on the law of contacts.
+/// Functions for the rows of a joint, which do not depend on the contact law.
 struct Joint {
     template <int D>
     static double linearise(const JointScale& joint, const Eigen::Matrix<double, D, 1>& r,
@@ -85,7 +85,7 @@ struct Joint {
                             const Eigen::Matrix<double, D, 1>& r_k, double rho_of_contacts,
                             Linearised<D>& out) noexcept {
         out.G.setZero();
-        out.c = r;  // rows beyond the joint's are zero
+        out.c = r;  // rows that the joint does not use are zero
         out.open = true;
         double error = 0;
         for (int i = 0; i < ProblemJoint::kRows; ++i) {
@@ -106,8 +106,8 @@ struct Joint {
         }
         return error;
     }
-    /// |r - clamp(r - (u + compliance r))|^2 for impulses that are `unit` times the scaled ones,
-    /// and velocities that are 1 / `unit` times the scaled ones.
+    /// Computes |r - clamp(r - (u + compliance r))|^2 for impulses that are `unit` times the scaled
+    /// impulses and velocities that are 1 / `unit` times the scaled velocities.
     template <int D>
     static double residual(const JointScale& joint, const Eigen::Matrix<double, D, 1>& r,
                            const Eigen::Matrix<double, D, 1>& u, double unit = 1) noexcept {
@@ -121,7 +121,7 @@ struct Joint {
         }
         return sum;
     }
-    /// Updates r row by row; each row takes the changes of the rows before it into account.
+    /// Updates r row by row; each row accounts for the changes already made in the rows before it.
     template <int D>
     static void relax(const JointScale& joint, Eigen::Matrix<double, D, 1>& r,
                       const Eigen::Matrix<double, D, 1>& u) noexcept {
@@ -140,9 +140,9 @@ struct Joint {
     }
 };
 
-/// Linearises sliding or sticking on the disc of radius `radius`: returns |Phi_T|^2 and fills the
-/// tangential part of G and c, without coupling to the normal. `slides` tells whether the
-/// impulse is on the rim.
+/// Linearises sliding or sticking on the disc with radius `radius`. Returns |Phi_T|^2 and fills in
+/// the tangential part of G and c, without coupling to the normal. `slides` is set to whether the
+/// impulse lies on the rim of the disc.
 template <int D>
 double linearise_disc(const Eigen::Matrix<double, D, 1>& r, const Eigen::Matrix<double, D, 1>& u,
                       double radius, double a_t, double rho, Linearised<D>& out,
@@ -181,8 +181,8 @@ double linearise_disc(const Eigen::Matrix<double, D, 1>& r, const Eigen::Matrix<
     return phi.squaredNorm();
 }
 
-/// Linearises the normal part and sets the tangential part to zero; an open contact needs nothing
-/// more. Returns r_N - a_N u^_N.
+/// Linearises the normal part and sets the tangential part to zero; for an open contact, nothing
+/// else is needed. Returns r_N - a_N u^_N.
 template <int D>
 double linearise_normal(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
                         const Eigen::Matrix<double, D, 1>& u, double rho,
@@ -197,9 +197,9 @@ double linearise_normal(const Scale& scale, const Eigen::Matrix<double, D, 1>& r
     return g;
 }
 
-/// Coulomb's law: normal and tangential part together.
+/// Coulomb's law, with its normal and tangential parts together.
 struct Coulomb {
-    /// Cost per contact of a sweep, or of judging an answer (work.h).
+    /// Cost per contact of a sweep, or of evaluating the residual of an answer (work.h).
     static constexpr int kVisits = 1;
     template <int D>
     static double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
@@ -222,7 +222,7 @@ struct Coulomb {
                            const Eigen::Matrix<double, D, 1>& u, size_t) noexcept {
         return natural_map_squared<D>(r, u, scale.mu);
     }
-    /// A projected step along this contact's own velocity.
+    /// Takes a projected step along the velocity of this contact.
     template <int D>
     static void relax(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
                       const Eigen::Matrix<double, D, 1>& u, size_t contact) noexcept {
@@ -241,8 +241,8 @@ struct Coulomb {
     }
 };
 
-/// Normal impulses, with the tangential ones fixed: the contact projection of staggered
-/// projections.
+/// The law for normal impulses, with the tangential impulses held fixed. This is the contact
+/// projection of staggered projections.
 struct NormalOnly {
     static constexpr int kVisits = 1;
     template <int D>
@@ -275,8 +275,9 @@ struct NormalOnly {
     }
 };
 
-/// Tangential impulses on discs of the present radius mu r_N, with steps of 2 / trace(W_TT). Sweeps
-/// are then stable however much the rows differ; the torsion row is often by far the smallest.
+/// The law for tangential impulses on discs with the current radius mu r_N, in steps of 2 /
+/// trace(W_TT). These steps keep sweeps stable however much the rows differ; the torsion row is
+/// often by far the smallest.
 struct FrictionOfLoad {
     template <int D>
     static void relax(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
@@ -286,19 +287,19 @@ struct FrictionOfLoad {
     }
 };
 
-/// Coulomb's law for sweeps: one over all normal impulses, then one over all friction. In stacks
-/// this leaves two thirds of the error that remains if both are swept at once.
+/// Coulomb's law for sweeps that visit first all normal impulses, then all friction impulses. In
+/// stacks, this leaves two thirds of the error that remains if each contact updates both at once.
 struct NormalThenFriction {
     static constexpr int kVisits = 2;
     NormalOnly normal;
     FrictionOfLoad friction;
 };
 
-/// Tangential impulses on discs of fixed radius mu r_N: the friction projection of staggered
-/// projections. Contacts without load have no friction and are left out.
+/// The law for tangential impulses on discs with fixed radius mu r_N. This is the friction
+/// projection of staggered projections. Contacts without load have no friction and are left out.
 struct FrictionOnly {
     static constexpr int kVisits = 1;
-    std::span<const double> normal;  ///< by contact, in the scaled system
+    std::span<const double> normal;  ///< normal impulse of each contact, in the scaled system
 
     template <int D>
     double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
@@ -336,12 +337,12 @@ struct FrictionOnly {
     }
 };
 
-/// Coulomb's law with the disc replaced by a polygon (Stewart and Trinkle), with the multipliers
+/// Coulomb's law with the disc replaced by a polygon (Stewart and Trinkle) and the multipliers
 /// eliminated.
 template <int T>
 struct Polygonal {
     static constexpr int kVisits = 6;
-    std::span<const Polygon<T>> polygon;  ///< by contact
+    std::span<const Polygon<T>> polygon;  ///< one polygon per contact
     using Tangent = Eigen::Matrix<double, T, 1>;
 
     template <int D>
@@ -355,8 +356,8 @@ struct Polygonal {
         const Tangent u_t = u.template tail<T>();
         const double radius = scale.mu * g;
         const auto on = polygon[contact].project(r_t - scale.a_t * u_t, radius);
-        // P = radius * per_radius + F z, with F the projector on the facet (zero at a vertex): F
-        // takes the place that I - z z' has for a disc with s = 1
+        // P = radius * per_radius + F z, where F is the projector on the facet (zero at a vertex);
+        // F plays the role that I - z z' has for a disc with s = 1
         const Tangent phi = r_t - on.point;
         auto G_t = out.G.template bottomRightCorner<T, T>();
         auto c_t = out.c.template tail<T>();
@@ -381,8 +382,8 @@ struct Polygonal {
     }
 };
 
-/// The following functions use the law for a contact, and a joint's own rows for a joint. The
-/// first one applies to a proximal step about r_k.
+/// The following functions use the contact law for a contact, and a joint's own rows for a joint.
+/// The first function is for a proximal step about r_k.
 template <int D, class Law>
 double linearise(const Law& law, const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
                  const Eigen::Matrix<double, D, 1>& u, const Eigen::Matrix<double, D, 1>& r_k,

@@ -1,11 +1,11 @@
-// A friction polygon: n evenly spread directions in the contact's tangent plane, the first of them
+// A friction polygon: n evenly spaced directions in the contact's tangent plane, the first of them
 // along axes.col(0). Its vertices lie on the circle of radius mu N, so friction is mu N along a
-// direction and mu N cos(pi / n) halfway between two. With torsion (T = 3) it is a double pyramid:
-// the polygon and two further vertices, one on either side along axes.col(2).
+// direction and mu N cos(pi / n) halfway between two directions. With torsion (T = 3), the shape is
+// a double pyramid: the polygon and two further vertices, one on either side along axes.col(2).
 //
 // A regular polygon, and such a pyramid, are symmetric about the planes between neighbouring
-// directions. So the point nearest to a vector in the sector between them lies in that sector too,
-// on the one facet that spans the sector's T vertices.
+// directions. So, for a vector in the sector between two directions, the nearest point lies in that
+// sector too, on the one facet that spans the sector's T vertices.
 #pragma once
 
 #include <Eigen/Dense>
@@ -25,7 +25,7 @@ struct Polygon {
     int directions = 8;
     Square axes = Square::Identity();  ///< orthonormal
 
-    /// Lays the first direction along a vector; leaves it unchanged if the vector has no direction.
+    /// Aligns the first direction with a vector. Does nothing if the vector has no direction.
     void turn_to(const Tangent& first) noexcept {
         const double length = first.norm();
         if (!(length > 0) || !std::isfinite(length)) return;
@@ -33,7 +33,7 @@ struct Polygon {
         if constexpr (T == 2) {
             axes.col(1) = Tangent(-axes(1, 0), axes(0, 0));
         } else {
-            // across the first, in the tangent plane when that is possible
+            // perpendicular to the first axis, in the tangent plane if possible
             const Tangent across(-axes(1, 0), axes(0, 0), 0);
             const double size = across.norm();
             axes.col(1) = size > 1e-6 ? Tangent(across / size) : Tangent::UnitX();
@@ -42,7 +42,7 @@ struct Polygon {
     }
 
     int count() const noexcept { return T == 2 ? directions : directions + 2; }
-    /// Direction i of the polygon; the tips of the pyramids come last.
+    /// Direction i of the polygon. With torsion, the last two are the tips of the double pyramid.
     Tangent direction(int i) const noexcept {
         if constexpr (T == 3) {
             if (i == directions) return axes.col(2);
@@ -52,17 +52,17 @@ struct Polygon {
         return std::cos(phi) * axes.col(0) + std::sin(phi) * axes.col(1);
     }
 
-    /// The sector in which a vector lies.
+    /// The sector that contains a vector.
     struct Sector {
-        std::array<int, T> index;  ///< indices of its directions
+        std::array<int, T> index;  ///< indices of the sector's directions
         Square vertices;           ///< the directions, one per column
-        Square inverse;  ///< of vertices: its product with a vector gives the vector's coefficients
+        Square inverse;            ///< inverse of `vertices`: maps a vector to its coefficients
     };
     Sector sector(const Tangent& x) const noexcept {
         const double pitch = 2 * std::numbers::pi / directions;
         double turns = std::atan2(axes.col(1).dot(x), axes.col(0).dot(x)) / pitch;
         turns -= std::floor(turns / directions) * directions;
-        // a vector that is not a number also gets a sector with valid indices
+        // even a vector that is not a number gets a sector with valid indices
         const int before = turns >= 0 && turns < directions ? static_cast<int>(turns) : 0;
         Sector out;
         out.index[0] = before;
@@ -74,7 +74,7 @@ struct Polygon {
         return out;
     }
 
-    /// The largest d_k . x over all directions d_k.
+    /// The maximum of d_k . x over all directions d_k.
     double support(const Tangent& x) const noexcept {
         const Sector in = sector(x);
         return (in.vertices.transpose() * x).maxCoeff();
@@ -83,10 +83,10 @@ struct Polygon {
     struct Projection {
         Tangent point;
         bool inside = false;
-        Square along;        ///< projector on the nearest facet or edge; zero at a vertex
-        Tangent per_radius;  ///< d point / d radius
+        Square along;        ///< projector onto the nearest facet or edge; zero at a vertex
+        Tangent per_radius;  ///< derivative of the nearest point with respect to the radius
     };
-    /// The nearest point of the polygon with vertices at `radius`.
+    /// Returns the point nearest to x of the polygon whose vertices are at `radius`.
     Projection project(const Tangent& x, double radius) const noexcept {
         Projection out;
         out.along.setZero();
@@ -94,7 +94,7 @@ struct Polygon {
         out.point.setZero();
         if (radius <= 0) return out;
         const Sector in = sector(x);
-        // the facet's plane is normal . x = radius
+        // the facet lies in the plane normal . x = radius
         const Tangent normal = in.inverse.transpose() * Tangent::Ones();
         const double beyond = normal.dot(x) - radius;
         if (beyond <= 0) {

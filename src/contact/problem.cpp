@@ -9,7 +9,8 @@ namespace {
 
 using Vec4 = Eigen::Vector4d;
 
-/// The impulse in the four-dimensional cone, in which the moment is divided by the torsion radius.
+/// Converts an impulse to the space of the four-dimensional cone, where the moment is divided by
+/// the torsion radius.
 Vec4 in_cone(const Impulse& r, const ProblemContact& contact) {
     Vec4 out = r;
     out[3] = contact.torsion_radius > 0 ? r[3] / contact.torsion_radius : 0;

@@ -1,5 +1,5 @@
-// Route names the method that found the impulses in use. README.md gives the order in which methods
-// are tried.
+// Route identifies the method that found the impulses in use. README.md gives the order in which
+// the methods are tried.
 #pragma once
 
 #include <array>
@@ -9,15 +9,15 @@ namespace dihaptic::contact {
 /// Recorded with every tick, so append new values at the end.
 enum class Route {
     none,            ///< no problem, a refused problem, or an older recording
-    start,           ///< the start already solved the problem
-    newton,          ///< Newton's method on Coulomb's cone
-    own_newton,      ///< stewart_trinkle: Newton's method on its friction polygon
-    lemke,           ///< stewart_trinkle: Lemke's method on its friction polygon
-    coarse_polygon,  ///< newton, started from an answer on a polygon of four directions
+    start,           ///< the initial impulses already solved the problem
+    newton,          ///< Newton's method on the Coulomb cone
+    own_newton,      ///< stewart_trinkle: Newton's method on the friction polygon
+    lemke,           ///< stewart_trinkle: Lemke's method on the friction polygon
+    coarse_polygon,  ///< newton, started from the answer for a polygon with four directions
     staggered_projections,
-    sweeps,  ///< newton, started after many projected Gauss-Seidel sweeps
+    sweeps,  ///< newton, started from the result of many projected Gauss-Seidel sweeps
     sequential_impulse,
-    out_of_work  ///< sweeps, after the tick's counted work was used up
+    out_of_work  ///< sweeps, after the tick's work budget was used up
 };
 constexpr auto enum_names(Route) {
     return std::array{"none",

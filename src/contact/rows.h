@@ -1,4 +1,4 @@
-// Computes a contact's relative velocity from the bodies' velocities, for all solvers.
+// Computes a contact's relative velocity from the velocities of its bodies; used by all solvers.
 #pragma once
 
 #include "contact/problem.h"
@@ -8,10 +8,10 @@ namespace dihaptic::contact {
 template <int D>
 using Row = Eigen::Matrix<double, D, 6>;
 
-/// J with u = J (v, w) for the velocity of a body's centre of mass and its angular velocity; the
-/// caller applies the sign, which differs between a and b. For D = 4 the spin about the normal
-/// times the torsion radius is the fourth row, so that a soft finger's elliptic limit surface is a
-/// Coulomb cone with one more dimension.
+/// Returns J, where u = J (v, w), v is the velocity of a body's centre of mass and w is its angular
+/// velocity. The caller applies the sign, which differs between a and b. For D = 4, the fourth row
+/// is the spin about the normal times the torsion radius, so that a soft finger's elliptic limit
+/// surface is a Coulomb cone with one more dimension.
 template <int D>
 Row<D> contact_row(const ProblemContact& contact, const Vec3& arm) noexcept {
     Row<D> J;
@@ -27,7 +27,7 @@ Row<D> contact_row(const ProblemContact& contact, const Vec3& arm) noexcept {
     return J;
 }
 
-/// u without contact impulses, including the bias.
+/// Computes u without contact impulses but including the bias.
 template <int D>
 Eigen::Matrix<double, D, 1> free_velocity(const ContactProblem& problem,
                                           const ProblemContact& contact) noexcept {

@@ -16,24 +16,24 @@ namespace {
 constexpr int kMostStaggeredIterations = 200;
 constexpr size_t kFewPairs = 10;
 /// A problem with at most kFewContacts contacts that is not solved within its bound is allowed
-/// kMoreForFew times as much work, unless the tick has already done more than kLittleWork: an
-/// object that a finger is about to touch needs this once in several hundred thousand solves; the
-/// parts of a stirred heap need it often.
+/// kMoreForFew times as much work, unless the tick has already done more than kLittleWork: this
+/// happens once in several hundred thousand solves for an object that a finger is about to touch,
+/// and often for the parts of a stirred heap.
 constexpr size_t kFewContacts = 12;
 constexpr int kMoreForFew = 15;
-constexpr int64_t kLittleWork = 20'000;  // visits: about half a millisecond
-constexpr size_t kExactWhenBounded = 2;  // exact methods among those of hand_over() for bounded
-                                         // work
+constexpr int64_t kLittleWork = 20'000;  // [visits], about half a millisecond
+constexpr size_t kExactWhenBounded = 2;  // number of methods from hand_over() that count as exact
+                                         // when work is bounded
 constexpr int kLastSweeps = 2000;
-constexpr int kConeSweeps = 200;  // to bring an answer back into the cone
-/// Bounds of methods used as a fallback: on pairs of projections times contacts squared, and on
-/// sweeps times contacts.
+constexpr int kConeSweeps = 200;  // sweeps that bring an answer back into the cone
+/// Bounds on fallback methods: on projection pairs times squared contacts, and on sweeps times
+/// contacts.
 constexpr size_t kMostStaggeredWork = 20'000;
 constexpr size_t kMostSweepWork = 60'000;
 
 template <class System>
 struct SolverMemory {
-    StaggeredMemory<System> staggered;  // all methods use its Newton part
+    StaggeredMemory<System> staggered;  // its Newton part is used by all methods
     StewartTrinkleMemory<System> stewart_trinkle;
     std::vector<typename System::Vec> r;
 
@@ -44,7 +44,7 @@ struct SolverMemory {
     }
 };
 
-/// One solve: by the requested solver, then by others until one succeeds. Leaves the answer in
+/// One solve: tries the requested solver, then others until one succeeds. Leaves the answer in
 /// memory.r.
 template <class System>
 class Solve {
@@ -77,7 +77,7 @@ class Solve {
     void answer(Solver solver, SolveSettings settings, SolveDetail* detail) {
         project();
         const bool sweeps = solver == Solver::sequential_impulse;
-        if (sweeps) settings.work = kUnbounded;  // sweeps have bounds of their own
+        if (sweeps) settings.work = kUnbounded;  // sweeps have their own bounds
         const bool bounded = settings.work < kUnbounded;
         out_of_work_ = !sweeps && !system_.work().affords(visits(kFewestSteps * kVisitsPerStep));
         const bool exact =
@@ -90,20 +90,21 @@ class Solve {
         if (!exact) stats_.fallback = !sweeps;
         const Residual residual = end_inside_cone();
         stats_.residual = residual.given;
-        // Stewart and Trinkle's own answer solves another problem than Coulomb's
+        // the answer of Stewart and Trinkle's method solves a problem other than Coulomb's
         const bool own = solver == Solver::stewart_trinkle && !stats_.fallback;
         stats_.missed = !own && !(residual.judged() <= kTolerance);
     }
 
-    /// If there are few contacts, tries the exact methods, and then allows more work for the second
-    /// attempt that follows.
+    /// If there are few contacts, tries the exact methods and then allows more work for a second
+    /// attempt.
     void try_if_few(std::span<const Route> routes, SolveSettings& settings, SolveDetail* detail) {
         if (contacts_ > kFewContacts) return;
         hand_on(routes.first(kExactWhenBounded), true, settings, detail);
         if (system_.work().spent() < kLittleWork) settings.work *= kMoreForFew;
     }
 
-    /// Tries one method after another; if the tick's work runs out, sweeps end the solve.
+    /// Tries one method after another; if the tick's work budget runs out, finishes the solve with
+    /// sweeps.
     void hand_on(std::span<const Route> routes, bool exact, const SolveSettings& settings,
                  SolveDetail* detail) {
         for (const Route route : routes) {
@@ -119,13 +120,13 @@ class Solve {
         ask(Route::sequential_impulse, false, settings, detail);
     }
 
-    /// Whether the tick's work allows another pair of steps. All methods except sweeps consist of
-    /// such pairs.
+    /// Whether the tick's work budget allows another pair of steps. All methods except sweeps
+    /// consist of such pairs.
     bool may_step() const { return system_.work().affords(2 * system_.step_visits()); }
 
     int64_t visits(int64_t of_each) const { return of_each * static_cast<int64_t>(r_.size()); }
 
-    /// Whether the work allowed suffices for this many of Newton's steps.
+    /// Whether the work budget suffices for this many Newton steps.
     bool affords(int steps, const SolveSettings& settings) const {
         return static_cast<size_t>(settings.work) >= contacts_ * kVisitsPerStep * steps;
     }
@@ -166,8 +167,8 @@ class Solve {
         return answer;
     }
 
-    /// If another solver was requested, the number of pairs is limited in proportion to 1 /
-    /// contacts^2, and small if work is bounded.
+    /// Tries staggered projections. If another solver was requested, the number of projection pairs
+    /// is limited in proportion to 1 / contacts^2, and to a small number if work is bounded.
     Outcome by_staggered_projections(bool asked, bool bounded) {
         const size_t affordable = kMostStaggeredWork / (contacts_ * contacts_);
         const size_t pairs = asked     ? kMostStaggeredIterations
@@ -196,8 +197,8 @@ class Solve {
                       std::min(most_work, kMostNewtonWork));
     }
 
-    /// If no start leads to an answer on the cone, a coarse polygon that turns with sliding
-    /// gives a start near one.
+    /// If no start leads to an answer on the cone, uses a coarse polygon that turns with the
+    /// sliding direction to find a start near one.
     Outcome by_coarse_polygon() {
         constexpr PolygonSettings kCoarse{4, DirectionFrame::sliding};
         StewartTrinkle<System> method(system_, kCoarse, kTolerance, memory_.stewart_trinkle);
@@ -215,10 +216,11 @@ class Solve {
         return last;
     }
 
-    /// Projects the impulses into the cone, so that a remaining error never pulls. Some problems
-    /// are so delicate that even this small change is too much. Answers of staggered projections
-    /// are then led into the cone by sweeps, which also update the velocities; newton's remain as
-    /// they are, since they are orders of magnitude more exact than a few sweeps would leave them.
+    /// Projects the impulses into the cone, so that a remaining error never pulls bodies together.
+    /// Some problems are so delicate that even this small change is too much. Answers of staggered
+    /// projections are then led into the cone by sweeps, which also update the velocities; Newton's
+    /// answers are left as they are, since they are orders of magnitude more exact than a few
+    /// sweeps would leave them.
     Residual end_inside_cone() {
         std::copy(r_.begin(), r_.end(), newton_memory_.best.begin());
         project();
@@ -255,12 +257,12 @@ class Solve {
     NewtonMemory<System>& newton_memory_;
     std::span<Vec> r_;
     Load size_;
-    size_t contacts_;  // at least 1
+    size_t contacts_;  // number of contacts, at least 1
     SolveStats& stats_;
     Outcome outcome_;
     bool first_ = true;         // whether no method has been tried yet
-    int counted_ = 0;           // visits that count towards the allowed work
-    bool out_of_work_ = false;  // whether the tick's work is used up
+    int counted_ = 0;           // visits that count towards the work limit
+    bool out_of_work_ = false;  // whether the tick's work budget is used up
 };
 
 template <int D>
@@ -318,8 +320,8 @@ struct BodyMemory {
 struct ContactSolvers::Memory {
     BodyMemory<3> plain;
     BodyMemory<4> torsional;
-    bool torsion = false;       // whether memory for torsion is reserved
-    bool last_torsion = false;  // whether the last solve had torsion
+    bool torsion = false;       // whether memory is reserved for torsion
+    bool last_torsion = false;  // whether the last solve included torsion
 };
 
 ContactSolvers::ContactSolvers() : memory_(std::make_unique<Memory>()) {}

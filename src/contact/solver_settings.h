@@ -1,4 +1,4 @@
-// Names the contact solvers and their settings, for code that selects, records or compares solvers
+// The names and settings of the contact solvers, for code that selects, records or compares solvers
 // without using them.
 #pragma once
 
@@ -13,27 +13,27 @@ constexpr auto enum_names(Solver) {
 }
 constexpr int kSolvers = 4;
 
-/// Placement of a friction polygon's corners: in directions fixed in the contact frame, or turned
-/// with sliding.
+/// Placement of the corners of a friction polygon: either fixed in the contact frame, or turned
+/// with the sliding direction.
 enum class DirectionFrame { fixed, sliding };
 constexpr auto enum_names(DirectionFrame) {
     return std::array{"fixed", "sliding"};
 }
 
-/// Settings of stewart_trinkle.
+/// Settings for stewart_trinkle.
 struct PolygonSettings {
     int directions = 8;
     DirectionFrame frame = DirectionFrame::sliding;
 };
 constexpr int kMostDirections = 32;
 
-/// Conditions under which sequential_impulse ends.
+/// Conditions under which sequential_impulse stops.
 struct SweepSettings {
     int most = 200;
-    double tolerance = 1e-7;  ///< largest change of a contact's velocity in the last sweep [m/s]
+    double tolerance = 1e-7;  ///< largest change in a contact's velocity in the last sweep [m/s]
 };
 
-/// Work is counted in visits: a visit is a sweep's work on one contact.
+/// Work is counted in visits: a visit is the work that a sweep does on one contact.
 constexpr int kUnbounded = std::numeric_limits<int>::max();
 
 class Work;
@@ -41,9 +41,9 @@ class Work;
 struct SolveSettings {
     PolygonSettings polygon;
     SweepSettings sweeps;
-    int work = kUnbounded;  ///< visits after which sweeps end the solve (at least kFewestSweeps
-                            ///< sweeps); not for sequential_impulse
-    Work* tick = nullptr;   ///< for all solves of a tick together; every solver obeys it
+    int work = kUnbounded;  ///< visits after which sweeps finish the solve (with at least
+                            ///< kFewestSweeps sweeps); ignored by sequential_impulse
+    Work* tick = nullptr;   ///< work budget shared by all solves of a tick; every solver obeys it
 };
 
 }  // namespace dihaptic::contact

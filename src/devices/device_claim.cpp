@@ -20,7 +20,7 @@ Descriptor new_socket() {
     return unix_socket(SOCK_STREAM | SOCK_NONBLOCK);
 }
 
-/// The owner of the claim, in words.
+/// Describes the owner of a claim in words.
 std::string owner_of(const UnixAddress& address) {
     const Descriptor asking = new_socket();
     const auto owner = address.connect(asking) ? peer_of(asking.get()) : std::nullopt;

@@ -5,10 +5,10 @@
 namespace dihaptic::devices {
 namespace {
 
-/// Fraction of the limit by which rounding may make a limited force exceed it.
+/// Fraction by which rounding may make a limited force exceed its limit.
 constexpr double kRounding = 1e-9;
 
-/// Returns whether `v` had to be reduced.
+/// Limits the length of `v` to `most`. Returns whether `v` had to be reduced.
 bool clamp(Vec3& v, double most) noexcept {
     if (!v.allFinite()) v.setZero();
     const double size = v.norm();

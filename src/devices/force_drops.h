@@ -1,6 +1,7 @@
-// Distinguishes a single cut of a device's force from a fault. Devices cut their own force if too
-// much is requested, and restore it. A single cut is an event; repeated cuts are a fault, because
-// without a message a person would think that the simulated world is broken.
+// Distinguishes a single drop in a device's force from a fault. Devices cut their own force when
+// too much is requested, and restore it later. A single drop is treated as an event; repeated drops
+// are treated as a fault, because without a message a person would think that the simulated world
+// is broken.
 #pragma once
 
 #include <optional>
@@ -11,11 +12,11 @@ namespace dihaptic::devices {
 
 class ForceDrops {
   public:
-    static constexpr Time kApart = std::chrono::seconds(1);    ///< drops further apart than this
-                                                               ///< are separate events
+    /// Drops further apart than this are separate events.
+    static constexpr Time kApart = std::chrono::seconds(1);
     static constexpr Time kLongest = std::chrono::seconds(2);  ///< a longer series is a fault
 
-    /// The Status of a tick at `now`; `dropped`: whether force was cut in that tick.
+    /// Returns the Status of a tick at `now`; `dropped` says whether force was cut in that tick.
     uint32_t status(Time now, bool dropped) noexcept {
         if (!dropped) return 0;
         if (!first_ || now - last_ > kApart) first_ = now;

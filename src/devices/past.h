@@ -1,4 +1,4 @@
-// Past values of a sensor, for computing a velocity.
+// Past values of a sensor, from which a velocity is computed.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace dihaptic::devices {
 
-/// The last values of one sensor, up to kMostWindow.
+/// The last values of one sensor, at most kMostWindow of them.
 template <class T>
 class Past {
   public:
@@ -20,8 +20,8 @@ class Past {
         Time time{0};
         T value;
     };
-    /// Stores a value, and returns the value of `window` calls before, or the oldest if there are
-    /// fewer; null at the first call.
+    /// Stores a value, and returns the value stored `window` calls earlier or, if there have been
+    /// fewer calls, the oldest value. At the first call, returns null.
     const Sample* exchange(Time now, const T& value) noexcept {
         const auto size = static_cast<int>(past_.size());
         past_[static_cast<size_t>(count_ % size)] = {now, value};

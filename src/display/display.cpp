@@ -12,8 +12,8 @@ namespace dihaptic::display {
 namespace {
 
 constexpr double kSmallest = 0.02, kLargest = 20;  // edges [m]
-constexpr double kNearest = 0.02;                  // least distance of an eye from the plane [m]
-constexpr double kSkewed = 3 * kDegree;            // largest deviation from a right angle
+constexpr double kNearest = 0.02;        // minimum distance between an eye and the plane [m]
+constexpr double kSkewed = 3 * kDegree;  // largest deviation of a corner from a right angle
 
 bool has_edges(const Display& display, Diagnostics& diagnostics) {
     for (const auto& [edge, key] :
@@ -51,7 +51,7 @@ void Display::set(const Registration& found) {
 }
 
 void check(const Display& display, Diagnostics& diagnostics) {
-    // the name becomes part of a file name
+    // the name is used as part of a file name
     if (display.name.starts_with('.') || display.name.find_first_of("/\\\n\t") != std::string::npos)
         diagnostics.error(display.place, "name", fmt::format("'{}' cannot be a name", display.name),
                           "Use letters, digits, blanks, '-' and '_'.");

@@ -1,5 +1,5 @@
-// Describes a screen's position as seen directly or in a mirror, and the person's eyes, so that
-// objects are drawn where the hand feels them.
+// Describes the position of a screen as seen directly or in a mirror, and the person's eyes, so
+// that objects can be drawn where the hand feels them.
 #pragma once
 
 #include <array>
@@ -13,13 +13,13 @@
 
 namespace dihaptic::display {
 
-/// How a mirror flips the screen's picture, which is drawn flipped to compensate.
+/// How a mirror flips the picture of the screen. The picture is drawn flipped to compensate.
 enum class Mirrored { no, left_right, up_down };
 constexpr auto enum_names(Mirrored) {
     return std::array{"no", "left_right", "up_down"};
 }
 
-/// How the pictures for two eyes share the screen.
+/// How the pictures for the two eyes share the screen.
 enum class Stereo { none, side_by_side, top_bottom, anaglyph, in_turn };
 constexpr auto enum_names(Stereo) {
     return std::array{"none", "side_by_side", "top_bottom", "anaglyph", "in_turn"};
@@ -30,11 +30,11 @@ constexpr auto enum_names(Corner) {
     return std::array{"lower_left", "lower_right", "upper_left", "upper_right"};
 }
 
-/// A square for a photodiode in a corner of the picture: white while a state of the task
-/// requests it, otherwise black.
+/// A square in a corner of the picture, for a photodiode: white while a state of the task requests
+/// it, otherwise black.
 struct Patch {
-    Corner corner = Corner::lower_right;  ///< of the monitor's picture
-    double size = 0.08;                   ///< fraction of the picture's height
+    Corner corner = Corner::lower_right;  ///< corner of the monitor's picture
+    double size = 0.08;                   ///< side length, as a fraction of the picture's height
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -45,11 +45,11 @@ struct Patch {
     }
 };
 
-/// The eyes of a head at rest, or of a tracked head.
+/// The eyes of a head that is either at rest or tracked.
 struct Eyes {
     Vec3 position = Vec3::Zero();  ///< midpoint between the eyes [m]
-    Vec3 along = Vec3::UnitX();    ///< from the left eye to the right eye, of any length
-    double distance = 0.063;       ///< between the pupils [m]
+    Vec3 along = Vec3::UnitX();    ///< direction from the left eye to the right eye, of any length
+    double distance = 0.063;       ///< distance between the pupils [m]
     bool tracked = false;          ///< whether the eyes move with Rig::head
     Place place{};
 
@@ -75,8 +75,8 @@ struct Eyes {
     }
 };
 
-/// A screen as seen by the person; in a mirror, its image. Corners are named as the
-/// person sees them: lower_left is at the person's lower left.
+/// A screen as the person sees it; for a mirror, the mirror image of the screen. Corners are named
+/// as the person sees them: lower_left is at the person's lower left.
 struct Display {
     std::string name;
     Vec3 lower_left = Vec3::Zero();  ///< [m]
@@ -85,23 +85,25 @@ struct Display {
     Mirrored mirrored = Mirrored::no;
     Eyes eyes;
     Stereo stereo = Stereo::none;
-    std::string registration;  ///< path of its file, relative to the rig file's folder; empty: none
-    std::optional<Registration> registered;  ///< the file's content, in world coordinates
-    std::string monitor;  ///< its name in the system; empty: any without the operator's window
+    std::string registration;  ///< path of the registration file, relative to the folder of the rig
+                               ///< file; empty if there is none
+    std::optional<Registration> registered;  ///< contents of that file, in world coordinates
+    std::string monitor;  ///< name of the screen in the system; empty: any screen that does not
+                          ///< show the operator's window
     Place place{};
 
     Vec3 right() const { return lower_right - lower_left; }
     Vec3 up() const { return upper_left - lower_left; }
-    /// Position at which the person sees a cross on the screen [m].
+    /// Position on the screen at which the person sees a cross [m].
     Vec3 at(const Cross& cross) const {
         return lower_left + cross.right * right() + cross.up * up();
     }
-    /// Distance of an eye from the screen's plane [m]; negative behind it.
+    /// Distance of an eye from the screen's plane [m]; negative if the eye is behind the plane.
     double before(const Vec3& eye) const;
-    /// Whether these eyes are in front of the screen and far enough away for drawing.
+    /// Whether these eyes are in front of the screen, and far enough from it for drawing.
     bool faces(const Eyes& seen_by) const;
     void move(const Vec3& by);
-    /// Adopts the corners from a registration.
+    /// Adopts the corners found in a registration.
     void set(const Registration& found);
 
     template <class Visitor>
@@ -125,7 +127,7 @@ struct Display {
     }
 };
 
-/// Checks that the display is a rectangle with the eyes in front of it.
+/// Checks that the display is a rectangle and that the eyes are in front of it.
 void check(const Display& display, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::display

@@ -1,4 +1,4 @@
-// Describes the pose of a headset's tracking space in the world, so that objects are seen where
+// Describes the pose of a headset's tracking space in the world, so that objects can be shown where
 // the hand feels them.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace dihaptic::display {
 
-/// OpenXR's reference spaces that suit a seated person.
+/// The OpenXR reference spaces that suit a seated person.
 enum class HeadsetSpace { stage, local };
 constexpr auto enum_names(HeadsetSpace) {
     return std::array{"stage", "local"};
@@ -18,11 +18,11 @@ constexpr auto enum_names(HeadsetSpace) {
 
 struct Headset {
     HeadsetSpace space = HeadsetSpace::stage;
-    Vec3 position = Vec3::Zero();  ///< position of the space's origin [m]
-    Vec3 rotation = Vec3::Zero();  ///< turns about the world's axes x, then y, then z [rad]
+    Vec3 position = Vec3::Zero();  ///< position of the origin of the space [m]
+    Vec3 rotation = Vec3::Zero();  ///< rotations about the world's x, then y, then z axis [rad]
     Place place{};
 
-    /// X_WS of the space S, which has x right, y up and z backward.
+    /// Pose of the space S, in which x points right, y up and z backward.
     Pose X_WS() const {
         const Quat upright = rotation_xyz({std::numbers::pi / 2, 0, 0});
         return {rotation_xyz(rotation) * upright, position};

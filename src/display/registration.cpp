@@ -14,9 +14,9 @@ namespace {
 
 constexpr int kColumns = 5, kRows = 4;
 constexpr double kCrossMargin =
-    0.08;  // distance of crosses from the screen's edges, as a fraction of these
-constexpr double kMostRms = 3e-3;      // largest rms residual of touches on one screen [m]
-constexpr double kMostStretch = 0.03;  // largest error of a size measured with a ruler
+    0.08;  // distance of the crosses from the screen's edges, as a fraction of the edge lengths
+constexpr double kMostRms = 3e-3;      // largest rms residual of the touches on one screen [m]
+constexpr double kMostStretch = 0.03;  // largest relative error of a size measured with a ruler
 
 }  // namespace
 
@@ -38,7 +38,7 @@ RegistrationResult register_screen(const Display& display, std::span<const Vec3>
         told.col(static_cast<Eigen::Index>(i)) = display.at(all[i]);
         touched.col(static_cast<Eigen::Index>(i)) = touches[i];
     }
-    // Umeyama 1991: least-squares fit of a rigid movement
+    // Umeyama 1991: least-squares fit of a rigid transformation
     const Eigen::Matrix4d X = Eigen::umeyama(told, touched, false);
     const Eigen::Matrix4d scaled = Eigen::umeyama(told, touched, true);
     const Mat3 R = X.topLeftCorner<3, 3>();

@@ -1,5 +1,5 @@
-// Registration of a display finds the screen's position as seen by the person: a finger touches
-// crosses on it. README.md describes the method and its accuracy.
+// Registers a display, i.e. finds the position of the screen as the person sees it, from crosses on
+// the screen that a finger has touched. README.md describes the method and its accuracy.
 #pragma once
 
 #include <functional>
@@ -14,14 +14,14 @@ namespace dihaptic::display {
 
 struct Display;
 
-/// A registration file. Its positions are in the same frame as those of the rig file; read_rig()
-/// converts them all to the world's.
+/// The contents of a registration file. Its positions are in the same frame as those of the rig
+/// file; read_rig() converts all of them to world coordinates.
 struct Registration {
-    std::string date;                ///< ISO 8601: 2026-11-21
-    Vec3 lower_left = Vec3::Zero();  ///< corners of the picture that the person sees [m]
+    std::string date;                ///< ISO 8601 date, e.g. 2026-11-21
+    Vec3 lower_left = Vec3::Zero();  ///< corners of the picture as the person sees it [m]
     Vec3 lower_right = Vec3::Zero();
     Vec3 upper_left = Vec3::Zero();
-    double rms = 0;    ///< deviation of the touches from the crosses [m]
+    double rms = 0;    ///< deviation of the touched positions from the crosses [m]
     double worst = 0;  ///< [m]
     Place place{};
 
@@ -41,30 +41,31 @@ struct Registration {
     }
 };
 
-/// A cross on the screen, in fractions of its edges from the lower left corner as seen.
+/// A cross on the screen. Its position is given in fractions of the screen's edges, starting from
+/// the lower left corner as the person sees it.
 struct Cross {
     double right = 0;
     double up = 0;
 };
-/// Four rows of five, starting at the upper left.
+/// Returns the crosses: four rows of five, starting at the upper left.
 std::vector<Cross> crosses();
 
 struct RegistrationResult {
-    Registration registration;  ///< without a date
-    double moved = 0;           ///< displacement of the screen's centre from the rig file [m]
-    double turned = 0;          ///< rotation of the screen from the rig file [rad]
-    double stretch = 0;         ///< touched size over the file's size, minus 1
+    Registration registration;  ///< the registration, without a date
+    double moved = 0;    ///< displacement of the screen's centre relative to the rig file [m]
+    double turned = 0;   ///< rotation of the screen relative to the rig file [rad]
+    double stretch = 0;  ///< ratio of the touched size to the size in the rig file, minus 1
 };
 
-/// The position of a screen whose crosses were touched at `touches` [m], one for each of crosses():
-/// the rig file's screen, moved and turned as a whole. Throws Error when touches contradict each
-/// other or the screen's size.
+/// Finds the position of a screen whose crosses were touched at `touches` [m], one for each of
+/// crosses(). The screen of the rig file is moved and turned as a whole. Throws Error when the
+/// touches contradict each other or the size of the screen.
 RegistrationResult register_screen(const Display& display, std::span<const Vec3> touches);
-/// The result in words, for a person; several lines.
+/// Describes the result in words, in several lines.
 std::string describe(const RegistrationResult& result);
 
-/// A picture of the crosses with their numbers (SVG), for the whole screen. It is
-/// flipped for the mirror, and the same for both eyes.
+/// Returns a picture (SVG) of the crosses with their numbers, for the whole screen. The picture is
+/// flipped if there is a mirror, and is the same for both eyes.
 std::string cross_picture(const Display& display);
 
 }  // namespace dihaptic::display

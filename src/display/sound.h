@@ -1,4 +1,4 @@
-// The output for the sounds of a task.
+// Describes the output device for the sounds of a task.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ constexpr auto enum_names(SoundTo) {
 
 struct SoundOutput {
     SoundTo to = SoundTo::speakers;
-    std::string device;           ///< part of the device's name; empty: the system's default
-    double rate = 48000;          ///< [Hz]
+    std::string device;   ///< part of the device's name; if empty, the system's default is used
+    double rate = 48000;  ///< [Hz]
     std::optional<double> delay;  ///< time from a tick to the first sample of its sounds [s]
     Place place{};
 

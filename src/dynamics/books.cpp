@@ -6,12 +6,12 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Rounding explains an error of momentum up to this fraction of the summed impulses.
+/// Rounding can explain a momentum error of up to this fraction of the summed impulses.
 constexpr double kRounding = 1e-6;
 constexpr double kLeastMomentum = 1e-9;  // [N*s]
 constexpr double kLeastTurning = 1e-11;  // [N*m*s]
-/// Time over which unexplained energy is summed and compared with the energy present and exchanged
-/// [s].
+/// Time window over which unexplained energy is summed, and compared with the energy present and
+/// exchanged [s].
 constexpr double kMemory = 0.5;
 constexpr double kMostShare = 0.03;
 constexpr double kLeastEnergy = 5e-4;  // [J]
@@ -20,7 +20,7 @@ Vec3 angular_momentum(const Books::Body& body, const Mat3& R_WM, const Vec3& w_W
     return R_WM * Vec3(body.moments.cwiseProduct(R_WM.transpose() * w_W));
 }
 
-/// Angular velocity of a freely turning body from its momentum.
+/// Returns the angular velocity of a freely turning body, given its angular momentum.
 Vec3 turning_by(const Vec3& L_W, const Books::Body& body, const Mat3& R_WM) {
     return R_WM * Vec3(Vec3(R_WM.transpose() * L_W).cwiseQuotient(body.moments));
 }
@@ -129,12 +129,12 @@ Vec3 Books::way(int a, int b, const Vec3& p_W) const noexcept {
 void Books::check_gap(const Exchange& exchange, const Meeting& meeting, const Vec3& n_W,
                       double gap) noexcept {
     constexpr double kLeast = 1e-4;      // [m]
-    constexpr double kShareOfWay = 0.1;  // because surfaces are curved and turn
+    constexpr double kShareOfWay = 0.1;  // margin, since surfaces are curved and turn
     const auto enters = [&](const Vec3& way) {
         const double inside = -std::max(gap, 0.0) - way.dot(n_W);
         return inside > kLeast && inside > kLeast + kShareOfWay * way.norm();
     };
-    // a fault only if both the velocities and the paths clearly show one body entering the other
+    // a fault only if both the velocities and the paths clearly show that a body enters the other
     if (enters(h_ * meeting.v_after) && enters(way(exchange.a, exchange.b, exchange.p_W)))
         balance_.unbalanced = true;
 }
@@ -151,7 +151,7 @@ void Books::act(Entry& one, const Vec3& p_W, const Vec3& impulse_W, const Vec3& 
 void Books::take(const Exchange& exchange, const Meeting& meeting) noexcept {
     before_ += exchange.stored_before;
     springs_ += exchange.stored_after;
-    double outside = 0;  // work on the free body by the led one
+    double outside = 0;  // work done on the free body by the led body
     bool within = false;
     for (const double sign : {-1.0, 1.0}) {
         const int body = sign < 0 ? exchange.a : exchange.b;
@@ -166,7 +166,7 @@ void Books::take(const Exchange& exchange, const Meeting& meeting) noexcept {
     if (!within) return;
     const double work =
         exchange.impulse_W.dot(meeting.v_mean) + exchange.moment_W.dot(meeting.w_mean);
-    // energy released by the exchange and its springs
+    // energy released by the exchange, including its springs
     const double passive = work - exchange.given + exchange.stored_after - exchange.stored_before;
     if (exchange.joint < 0) {
         by_contacts_ += passive;
@@ -191,7 +191,7 @@ void Books::check_momentum(const Entry& one) noexcept {
     const Body& body = one.body;
     const Vec3 change = body.masses.cwiseProduct(one.after.v_W - one.before.v_W);
     const Vec3 load = h_ * (one.load_W.force + (one.late ? Vec3(Vec3::Zero()) : body.weight_W));
-    // its position follows from its velocity
+    // check that the change in position follows from the velocity
     const Vec3 moved = body.masses.cwiseProduct((one.after.p_WM - one.before.p_WM) / h_);
     const Vec3 leads = body.masses.cwiseProduct(one.after.v_W);
     const double off = (change - load - one.impulse_W).cwiseProduct(body.moves).norm();
@@ -202,7 +202,7 @@ void Books::check_momentum(const Entry& one) noexcept {
     if (std::max(off, lost) > kRounding * size + kLeastMomentum) balance_.unbalanced = true;
 
     if (!one.bounced && !body.is_outside) check_turn(one);
-    // the guides of a body with two free axes exert moments about all axes
+    // if a body has two free axes, its guides exert moments about all axes
     if (body.turns.sum() == 0 || body.turns.sum() == 2) return;
     const Vec3 torque = h_ * one.load_W.torque;
     const double turning =
@@ -214,15 +214,15 @@ void Books::check_momentum(const Entry& one) noexcept {
 }
 
 void Books::check_turn(const Entry& one) noexcept {
-    // the trapezoidal rule gives the mean angular velocity up to the square of the angle
+    // the trapezoidal rule gives the mean velocity with an error of second order in the angle
     const Vec3 mean = (one.w_struck_W + one.after.w_W) / 2;
     const Mat3 R = one.after.R_WM * one.before.R_WM.transpose();
     const Vec3 sine = Vec3(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1)) / 2;
-    const double size = sine.norm();  // for an angle below 90 degrees
+    const double size = sine.norm();  // valid for an angle below 90 degrees
     const Vec3 turned = (size > 1e-6 ? std::asin(std::min(1.0, size)) / size : 1) * sine / h_;
     const double off = (turned - mean).norm();
     const double speed = mean.norm();
-    // free rotation is iterated until guesses differ by about this
+    // iterations of free rotation stop when successive guesses differ by about this much
     constexpr double kLeast = 1e-4;  // [rad/s]
     if (off <= kLeast * (1 + speed) + speed * h_ * speed * h_ * speed) return;
     balance_.unbalanced = true;
@@ -242,7 +242,7 @@ void Books::count_energy(Entry& one) noexcept {
     exchanged_ += std::abs(by_load) + std::abs(by_weight);
     balance_.work += by_load;
     if (one.late) balance_.work -= by_weight;
-    // the time of an impact within the step is unknown
+    // the time of the impact within the step is unknown
     if (one.bounced)
         balance_.dissipated -= one.potential - potential_of(body, one.before, h_) + by_weight;
 }
@@ -252,7 +252,7 @@ void Books::balance() noexcept {
         if (!entries_[i].body.is_led) check_momentum(entries_[i]);
         count_energy(entries_[i]);
     }
-    // one contact may take the energy given by another within the step; together they give none
+    // a contact may take energy that another gives within the step, but their sum must not give any
     const double found = owe(owed_by_contacts_, by_contacts_);
     gains_ += found;
     balance_.dissipated += found;

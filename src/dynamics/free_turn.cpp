@@ -6,16 +6,17 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// The series for an interval in which a body turns by less than this [rad] converge in a few
-/// terms: each term is smaller than the one before by at least this factor.
+/// The series converges in a few terms over an interval in which the body turns by less than this
+/// [rad]: each term is smaller than the previous one by at least this factor.
 constexpr double kStretch = 0.2;
 constexpr size_t kMostTerms = 24;
-/// A term below this, in a sum of about one, has no effect.
+/// A term smaller than this has no effect in a sum of about one.
 constexpr double kNothing = 1e-17;
 
-/// Advances q and w, in the body's axes, by h. `a` are (I_y - I_z) / I_x and so on.
+/// Advances q and w, in the body's axes, by h. The components of `a` are (I_y - I_z) / I_x and so
+/// on.
 void advance(const Vec3& a, double h, Quat& q, Vec3& w) noexcept {
-    // coefficients of h w and q, by powers of t / h
+    // Taylor coefficients of h w and of q, in powers of t / h
     std::array<Vec3, kMostTerms + 1> W;
     std::array<Quat, kMostTerms + 1> Q;
     W[0] = h * w;

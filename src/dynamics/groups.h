@@ -1,5 +1,6 @@
-// Groups bodies by touch, step by step (union-find with path halving). Bodies that do not touch
-// each other, directly or through others that can move, are solved and put to sleep separately.
+// Groups bodies that touch, anew in each step (union-find with path halving). Bodies that do not
+// touch each other, either directly or through other movable bodies, are solved and put to sleep
+// separately.
 #pragma once
 
 #include <numeric>
@@ -11,15 +12,15 @@ class Groups {
   public:
     explicit Groups(size_t bodies) : parent_(bodies) {}
 
-    /// Puts each body in a group of its own.
+    /// Puts each body into its own group.
     void reset() noexcept { std::iota(parent_.begin(), parent_.end(), size_t{0}); }
     void join(size_t a, size_t b) noexcept {
         const size_t root_a = of(a);
         const size_t root_b = of(b);
-        // the smallest index represents the group, whatever the order of joining
+        // the smallest index represents the group, regardless of the order of joining
         parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
     }
-    /// The body that represents the group of `body`.
+    /// Returns the body that represents the group of `body`.
     size_t of(size_t body) noexcept {
         while (parent_[body] != body) {
             parent_[body] = parent_[parent_[body]];

@@ -9,20 +9,21 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// The best separating face of `a` for `b`, whose vertices are given in a's frame.
+/// The face of `a` that best separates it from `b`, whose vertices are given in a's frame.
 struct FaceQuery {
     double separation = -kInfinity;
     int face = -1;
-    int flush = -1;  ///< a face with which `b` is flush
+    int flush = -1;  ///< a face with which `b` is flush, or -1
 };
 
-/// `way` is the displacement of b relative to a in the coming step, in a's frame.
+/// Finds the best separating face. `way` is the displacement of b relative to a in the coming step,
+/// in a's frame.
 FaceQuery query_faces(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB, double margin,
                       const Vec3& way) {
     FaceQuery best;
     const Mat3 R_BA = X_AB.R.conjugate().toRotationMatrix();
     for (size_t f = 0; f < a.faces.size(); ++f) {
-        // the plane in b's frame, so that b's vertices need not be transformed
+        // use the plane in b's frame, so that b's vertices need not be transformed
         const Vec3 n = R_BA * a.faces[f].normal;
         const double offset = a.faces[f].offset - a.faces[f].normal.dot(X_AB.p);
         double lowest = kInfinity;
@@ -33,15 +34,15 @@ FaceQuery query_faces(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB
             best.separation = separation;
             best.face = static_cast<int>(f);
         }
-        if (separation > margin) break;  // apart: other faces are irrelevant
+        if (separation > margin) break;  // the shapes are apart: other faces are irrelevant
     }
     return best;
 }
 
-/// The best separating pair of edges, in a's frame.
+/// The pair of edges that separates the shapes best, in a's frame.
 struct EdgeQuery {
     double separation = -kInfinity;
-    Vec3 axis = Vec3::Zero();  ///< from a to b
+    Vec3 axis = Vec3::Zero();  ///< points from a to b
     int direction_a = -1;
     int direction_b = -1;
 };
@@ -53,7 +54,7 @@ EdgeQuery query_edges(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB
         for (size_t j = 0; j < b.directions.size(); ++j) {
             Vec3 axis = a.directions[i].cross(R_AB * b.directions[j]);
             const double size = axis.norm();
-            if (size < 1e-4) continue;  // parallel edges: a face axis suffices
+            if (size < 1e-4) continue;  // edges are parallel: a face axis suffices
             axis /= size;
             double a_low = kInfinity, a_high = -kInfinity, b_low = kInfinity, b_high = -kInfinity;
             for (const Vec3& v : a.vertices) {
@@ -81,7 +82,7 @@ EdgeQuery query_edges(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB
     return best;
 }
 
-/// The edge with a given direction that is farthest along the axis.
+/// Returns the edge farthest along the axis among the edges with a given direction.
 Polyhedron::Edge support_edge(const Polyhedron& p, int direction, const Vec3& axis) {
     const Polyhedron::Edge* best = nullptr;
     double furthest = -kInfinity;
@@ -97,8 +98,8 @@ Polyhedron::Edge support_edge(const Polyhedron& p, int direction, const Vec3& ax
     return *best;
 }
 
-/// Clips the face of `other` that faces the reference face. The patch's points are pairs (on
-/// reference, on other); its normal points away from the reference.
+/// Clips the face of `other` that is most opposed to the reference face. Each point of the patch is
+/// a pair (on the reference, on the other); its normal points away from the reference.
 void face_contact(const Polyhedron& ref, const Pose& X_WR, int face, const Polyhedron& other,
                   const Pose& X_WO, double margin, ContactPatch& patch) {
     const Polyhedron::Face& reference = ref.faces[static_cast<size_t>(face)];
@@ -113,7 +114,7 @@ void face_contact(const Polyhedron& ref, const Pose& X_WR, int face, const Polyh
             incident = f;
         }
     }
-    std::array<Polygon, 2> polygons;  // used alternately, as they are too large to copy
+    std::array<Polygon, 2> polygons;  // used alternately, because they are too large to copy
     size_t current = 0;
     for (const int v : other.faces[incident].vertices)
         polygons[current].add(X_RO * other.vertices[static_cast<size_t>(v)]);
@@ -149,7 +150,7 @@ void edge_contact(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, co
     const Vec3 da = a.vertices[static_cast<size_t>(ea.to)] - pa;
     const Vec3 pb = X_AB * b.vertices[static_cast<size_t>(eb.from)];
     const Vec3 db = X_AB * b.vertices[static_cast<size_t>(eb.to)] - pb;
-    // closest points of the two lines, clamped to the edges
+    // closest points of the two lines, clamped to the ends of the edges
     const Vec3 r = pa - pb;
     const double aa = da.squaredNorm(), bb = db.squaredNorm(), ab = da.dot(db);
     const double det = aa * bb - ab * ab;
@@ -246,7 +247,7 @@ Polyhedron Polyhedron::of(const scene::Hull& hull) {
     for (const std::vector<int>& loop : hull.faces) {
         Face face;
         face.vertices = loop;
-        // Newell's normal: robust for polygons with many vertices
+        // use Newell's normal, which is robust for polygons with many vertices
         Vec3 normal = Vec3::Zero();
         for (size_t i = 0; i < loop.size(); ++i) {
             const Vec3& p = out.vertices[static_cast<size_t>(loop[i])];
@@ -292,13 +293,13 @@ Polyhedron Polyhedron::box(const Vec3& size) {
 
 namespace {
 
-/// The face to which the contact belongs; if both are -1, it belongs to two edges.
+/// The face to which a contact belongs; if both indices are -1, it belongs to two edges.
 struct Choice {
     int face_of_a = -1;
     int face_of_b = -1;
 };
 
-/// The face of the best axis, or the one with which the shapes are flush.
+/// Chooses the face of the best axis, or the face with which the shapes are flush.
 Choice choose(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB, const FaceQuery& on_a,
               const FaceQuery& on_b, const EdgeQuery& edges) {
     const auto of_a = [&](int face) { return a.faces[static_cast<size_t>(face)].normal; };
@@ -348,7 +349,7 @@ ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pos
                                 double margin) noexcept {
     ContactPatch patch;
     patch.n_W = X_WA.R * Vec3::UnitZ();
-    // the vertices within the margin make up the patch, whatever the faces
+    // all vertices within the margin form the patch, whatever their faces
     Polygon corners;
     for (const Vec3& vertex : b.vertices) corners.add(X_WB * vertex);
     keep_near(corners, patch.n_W.dot(X_WA.p), margin, patch);

@@ -1,12 +1,13 @@
 // Finds contacts between convex polyhedra, and between a polyhedron and a half-space.
 //
-// Separating-axis test over the faces of both and the cross products of their edge directions
-// (Gottschalk 1996; Gregorius 2013); then the incident face is clipped against the reference face.
-// Contacts are found up to `margin` before the bodies touch, so that a solver can prevent any
-// overlap: a gap g lets bodies approach by at most g in the step.
+// A separating-axis test examines the face normals of both polyhedra and the cross products of
+// their edge directions (Gottschalk 1996; Gregorius 2013); then the incident face is clipped
+// against the reference face. Contacts are found at up to a distance of `margin` before the bodies
+// touch, so that a solver can prevent any overlap: a gap g lets bodies approach by at most g in the
+// step.
 //
-// Bullet finds box contacts only once they overlap, and allocates in doing so; hence this
-// implementation.
+// This implementation exists because Bullet finds contacts between boxes only once they overlap,
+// and allocates memory in doing so.
 #pragma once
 
 #include <array>
@@ -18,18 +19,19 @@
 
 namespace dihaptic::dynamics {
 
-/// A convex polyhedron, prepared for contact. Built once; all vectors are in the body's frame.
+/// A convex polyhedron, prepared for finding contacts. Built once; all vectors are in the body's
+/// frame.
 struct Polyhedron {
-    /// The plane through an edge of a face, perpendicular to the face.
+    /// The plane through an edge of a face that is perpendicular to the face.
     struct Side {
-        Vec3 normal;        ///< unit, points away from the face
-        double offset = 0;  ///< normal . x = offset on the plane [m]
+        Vec3 normal;        ///< unit vector, points away from the face
+        double offset = 0;  ///< normal . x = offset for points x on the plane [m]
     };
     struct Face {
         Vec3 normal;                ///< outward
-        double offset = 0;          ///< normal . x = offset on the face [m]
-        std::vector<int> vertices;  ///< counter-clockwise from outside
-        std::vector<Side> sides;    ///< one per edge
+        double offset = 0;          ///< normal . x = offset for points x on the face [m]
+        std::vector<int> vertices;  ///< counter-clockwise as seen from outside
+        std::vector<Side> sides;    ///< one per edge of the face
     };
     struct Edge {
         int from = 0;
@@ -39,9 +41,10 @@ struct Polyhedron {
     std::vector<Vec3> vertices;
     std::vector<Face> faces;
     std::vector<Edge> edges;
-    std::vector<Vec3> directions;  ///< of edges, unit; parallel ones only once
-    /// Outward normals of faces that other parts of the same body cover, and which nothing can
-    /// touch. Without them, a body sliding over the seam would run into the covered face behind it.
+    std::vector<Vec3> directions;  ///< unit edge directions; parallel edges share one
+    /// Outward normals of the faces that are covered by other parts of the same body, so that
+    /// nothing can touch them. Without this information, a body sliding over the seam would run
+    /// into the covered face behind it.
     std::vector<Vec3> covered;
 
     static Polyhedron of(const scene::Hull& hull);
@@ -51,27 +54,28 @@ struct Polyhedron {
 };
 
 struct ContactPoint {
-    Vec3 p_WA;   ///< on A's surface [m]
-    Vec3 p_WB;   ///< on B's surface [m]
-    double gap;  ///< from A to B along the normal; negative: overlap [m]
-    /// From this point to the point of a rolling rim that will touch in the middle of the step,
-    /// without the body's own motion [m].
+    Vec3 p_WA;   ///< on the surface of A [m]
+    Vec3 p_WB;   ///< on the surface of B [m]
+    double gap;  ///< from A to B along the normal, negative if the shapes overlap [m]
+    /// Vector from this point to the point of a rolling rim that will touch in the middle of the
+    /// step, without the body's linear motion [m].
     Vec3 ahead_W = Vec3::Zero();
 };
 
 /// Up to four contact points with a common normal.
 struct ContactPatch {
-    Vec3 n_W = Vec3::UnitZ();  ///< unit, from A to B
+    Vec3 n_W = Vec3::UnitZ();  ///< unit vector, from A to B
     std::array<ContactPoint, 4> points;
     int count = 0;
 };
 
-/// Contacts with gaps up to `margin` [m]. `way_W` is the displacement of B relative to A in the
-/// coming step [m]. Allocates nothing.
+/// Finds contacts with gaps of up to `margin` [m]. `way_W` is the displacement of B relative to A
+/// in the coming step [m]. Does not allocate.
 ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, const Pose& X_WB,
                      double margin, const Vec3& way_W = Vec3::Zero()) noexcept;
 
-/// Contacts between the half-space below the plane z = 0 of frame A and a polyhedron, as above.
+/// Finds contacts between a polyhedron and the half-space below the plane z = 0 of frame A, with
+/// gaps of up to `margin` [m].
 ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pose& X_WB,
                                 double margin) noexcept;
 

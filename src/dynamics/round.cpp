@@ -9,27 +9,28 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// A cap is treated as a polygon with this many corners, the first of which is the lowest point of
-/// its rim.
+/// A cap is treated as a polygon with this many corners. Its first corner is the lowest point of
+/// the rim.
 constexpr int kRim = 16;
-/// The whole rim of a cap is used if the axis is within about 25 degrees of the normal; otherwise
-/// only the rim's lowest point is.
+/// Cosine of the largest angle (about 25 degrees) between the axis and the normal at which the
+/// whole rim of a cap is used; at larger angles, only the lowest point of the rim is used.
 constexpr double kCap = 0.9;
-/// Lines closer to parallel than this touch along their length.
+/// Limit below which lines count as parallel, and touch along their length.
 constexpr double kParallel = 0.02;
-/// Largest number of projections in the search for closest points.
+/// Maximum number of projections in the search for closest points.
 constexpr int kMostTurns = 60;
-/// Closest points nearer than this define no direction [m].
+/// Closest points nearer to each other than this do not define a direction [m].
 constexpr double kTogether = 1e-9;
 
-/// The direction across an axis that is nearest to d, or `otherwise` if they are parallel.
+/// The direction perpendicular to an axis that is nearest to d, or `otherwise` if d is parallel to
+/// the axis.
 Vec3 radial(const Vec3& axis, const Vec3& d, const Vec3& otherwise) {
-    constexpr double kUpright = 1e-7;  // [rad]: nanometres between the sides of a cap
+    constexpr double kUpright = 1e-7;  // [rad], nanometres between the sides of a cap
     const Vec3 out = d - d.dot(axis) * axis;
     return out.norm() > kUpright ? Vec3(out.normalized()) : otherwise;
 }
 
-/// A round shape in the world.
+/// A round shape placed in the world.
 struct Placed {
     const Round& shape;
     Vec3 centre;
@@ -40,7 +41,7 @@ struct Placed {
         : shape(round), centre(X_W.p), axis(X_W.R * Vec3::UnitZ()), across(X_W.R * Vec3::UnitX()) {}
 
     Vec3 end(double sign) const { return centre + sign * shape.half * axis; }
-    /// Extent from its centre along the unit vector u.
+    /// Extent of the shape from its centre along the unit vector u.
     double extent(const Vec3& u) const {
         const double along = axis.dot(u);
         const double side = shape.has_rim() ? std::sqrt(std::max(0.0, 1 - along * along)) : 1;
@@ -48,11 +49,12 @@ struct Placed {
             return std::max(shape.half * along, shape.radius * side - shape.half * along);
         return shape.half * std::abs(along) + shape.radius * side;
     }
-    /// The direction across the axis that is nearest to d.
+    /// The direction perpendicular to the axis that is nearest to d.
     Vec3 radial(const Vec3& d) const { return dynamics::radial(axis, d, across); }
 };
 
-/// The closest points of two lines p + s d and q + t e, with s and t from 0 to 1 (Ericson 2005).
+/// The closest points of two line segments p + s d and q + t e, with s and t between 0 and 1
+/// (Ericson 2005).
 std::pair<Vec3, Vec3> closest(const Vec3& p, const Vec3& d, const Vec3& q, const Vec3& e) {
     const Vec3 r = p - q;
     const double dd = d.squaredNorm(), ee = e.squaredNorm(), de = d.dot(e);
@@ -64,24 +66,25 @@ std::pair<Vec3, Vec3> closest(const Vec3& p, const Vec3& d, const Vec3& q, const
     return {p + s * d, q + t * e};
 }
 
-/// The core of a cylinder or a cone: the shape shrunk by a given distance. Between touching shapes
-/// the direction of closest points is undefined; between a core and a shape it is not.
+/// The core of a cylinder or a cone: the shape shrunk by a given distance. If shapes touch, the
+/// direction between their closest points is undefined, but between a core and another shape it is
+/// not.
 struct Core {
     double radius = 0;
-    double low = 0, high = 0;  // along the axis
+    double low = 0, high = 0;  // ends along the axis
     bool has_tip = false;
 
-    /// The core of a shape: the axis of a capsule or sphere; otherwise the shape shrunk by
+    /// The core of a shape: the axis of a capsule or sphere; for other shapes, the shape shrunk by
     /// `rounding`.
     static Core of(const Round& shape, double rounding) {
         if (!shape.has_rim()) return {0, -shape.half, shape.half};
         const double half = shape.half - rounding;
         if (!shape.is_cone()) return {shape.radius - rounding, -half, half};
-        // scaled about the centre of the largest inscribed ball
+        // scale about the centre of the largest inscribed ball
         const double scale = 1 - rounding / inner_radius(shape);
         return {scale * shape.radius, -half, 2 * scale * shape.half - half, true};
     }
-    /// Radius of the largest inscribed ball of a shape with a rim.
+    /// Radius of the largest inscribed ball of a cylinder or cone.
     static double inner_radius(const Round& shape) {
         if (!shape.is_cone()) return std::min(shape.radius, shape.half);
         const double height = 2 * shape.half;
@@ -116,8 +119,8 @@ double rounding_of(const Round& shape) {
     return shape.has_rim() ? kShare * Core::inner_radius(shape) : 0;
 }
 
-/// The closest points of two convex sets, by alternating projections (Cheney and
-/// Goldstein 1959), from a point of the first.
+/// Finds the closest points of two convex sets by alternating projections (Cheney and Goldstein
+/// 1959), starting from a point of the first set.
 template <class NearestOfA, class NearestOfB>
 std::pair<Vec3, Vec3> closest_by_turns(Vec3 p, int times, const NearestOfA& of_a,
                                        const NearestOfB& of_b) {
@@ -132,7 +135,7 @@ std::pair<Vec3, Vec3> closest_by_turns(Vec3 p, int times, const NearestOfA& of_a
     return {p, q};
 }
 
-/// The polygon of the cap that faces along d.
+/// Computes the polygon of the cap that faces along d.
 void cap(const Placed& at, const Vec3& d, Polygon& out) {
     const double sign = at.axis.dot(d) < 0 ? -1 : 1;
     const Vec3 second = sign * at.axis.cross(at.across);
@@ -144,8 +147,8 @@ void cap(const Placed& at, const Vec3& d, Polygon& out) {
     }
 }
 
-/// The feature of a shape that is farthest along d. With `whole`, a cap that faces along d is
-/// returned with its rim.
+/// Finds the feature of a shape that is farthest along d. If `whole`, a cap that faces along d is
+/// returned with its entire rim.
 void feature(const Placed& at, const Vec3& d, bool whole, Polygon& out) {
     const Round& shape = at.shape;
     out.count = 0;
@@ -170,11 +173,11 @@ void feature(const Placed& at, const Vec3& d, bool whole, Polygon& out) {
     }
 }
 
-/// Sets, for the nearest point of a patch, the point of its rim that will touch in the middle of a
-/// step in which the shape turns by turn_W. The patch's normal points to the shape.
+/// For the nearest point of a patch, sets the point of the shape's rim that will touch in the
+/// middle of a step in which the shape turns by turn_W. The patch's normal must point to the shape.
 void look_ahead(const Placed& at, const Vec3& turn_W, ContactPatch& patch) {
-    constexpr double kRolls = 0.9;  // cosine of the largest angle of the rim's point
-    constexpr double kLies = 1e-5;  // [m]: it lies on its side, touching along a line
+    constexpr double kRolls = 0.9;  // cosine of the largest angle between the rim points
+    constexpr double kLies = 1e-5;  // [m]: the shape lies on its side, touching along a line
     if (!at.shape.has_rim() || patch.count == 0) return;
     if (patch.count == 2 && std::abs(patch.points[0].gap - patch.points[1].gap) < kLies) return;
     const Quat half_way = rotation_by(turn_W / 2);
@@ -191,7 +194,7 @@ void look_ahead(const Placed& at, const Vec3& turn_W, ContactPatch& patch) {
         at.shape.radius * (then - now) + along * at.shape.half * (half_way * at.axis - at.axis);
 }
 
-/// The part of a line from p to q with n . x <= offset.
+/// Clips a line from p to q to the half-space n . x <= offset.
 void clip_line(const Vec3& n, double offset, Polygon& line) {
     Vec3& p = line.points[0];
     Vec3& q = line.points[1];
@@ -206,7 +209,8 @@ void clip_line(const Vec3& n, double offset, Polygon& line) {
     }
 }
 
-/// A's face, with corners counter-clockwise about the patch's normal, meets a feature of B.
+/// Finds the contacts of A's face, whose corners are counter-clockwise about the patch's normal,
+/// with a feature of B.
 void face_contact(const Polygon& face, const Polygon& of_b, double margin, ContactPatch& patch) {
     std::array<Polygon, 2> polygons;  // used alternately
     size_t current = 0;
@@ -231,7 +235,7 @@ void face_contact(const Polygon& face, const Polygon& of_b, double margin, Conta
     keep_near(polygons[current], patch.n_W.dot(face.points[0]), margin, patch);
 }
 
-/// Reduces a line that is not perpendicular to u to the end that is farthest along u.
+/// Reduces a line that is not perpendicular to u to its end that is farthest along u.
 void keep_furthest(const Vec3& u, Polygon& line) {
     constexpr double kLevel = 1e-3;
     if (line.count != 2) return;
@@ -241,7 +245,7 @@ void keep_furthest(const Vec3& u, Polygon& line) {
     line.count = 1;
 }
 
-/// Contacts between points and lines of both shapes along the patch's normal; `gap` is their
+/// Finds the contacts between a point or line of each shape along the patch's normal; `gap` is the
 /// smallest distance.
 void line_contact(Polygon& of_a, Polygon& of_b, double gap, double margin, ContactPatch& patch) {
     patch.count = 0;
@@ -258,7 +262,7 @@ void line_contact(Polygon& of_a, Polygon& of_b, double gap, double margin, Conta
     if (of_b.count == 1) return add(q - gap * n, gap);
     const Vec3 d = of_a.points[1] - p;
     const Vec3 e = of_b.points[1] - q;
-    // where they overlap lengthwise
+    // the range in which they overlap lengthwise
     const double s_q = d.dot(q - p) / d.squaredNorm();
     const double s_e = d.dot(e) / d.squaredNorm();
     const double low = std::max(0.0, std::min(s_q, s_q + s_e));
@@ -268,7 +272,7 @@ void line_contact(Polygon& of_a, Polygon& of_b, double gap, double margin, Conta
     for (const double s : {low, high}) add(p + s * d, n.dot(q + (s - s_q) / s_e * e - p - s * d));
 }
 
-/// The best axis so far, from A to B.
+/// The best separating axis so far, from A to B.
 struct Best {
     enum Kind { face, cap_of_a, cap_of_b, line };
     double separation = -kInfinity;
@@ -276,7 +280,7 @@ struct Best {
     Kind kind = line;
     int at = -1;  // the face
 
-    double line_separation = -kInfinity;  // of the best line
+    double line_separation = -kInfinity;  // separation along the best line
     Vec3 line_axis = Vec3::Zero();
 
     void take(double sep, const Vec3& u, Kind k, int index = -1) {
@@ -284,7 +288,7 @@ struct Best {
             line_separation = sep;
             line_axis = u;
         }
-        // a face or cap is kept unless a line separates better by a margin
+        // a face or cap is kept unless a line separates the shapes better by a margin
         const bool was_face = kind != line && k == line;
         if (sep <= separation + (was_face ? kFacePreference : 0)) return;
         separation = sep;
@@ -294,8 +298,9 @@ struct Best {
     }
 };
 
-/// Excess distance of the nearest point of a face's patch over the closest feature along
-/// the face's normal, which may lie beyond the face's sides [m]; zero if the face meets it.
+/// How much farther the nearest point of a face's patch is than the closest feature along the
+/// face's normal, which may lie beyond the sides of the face [m]. Zero if that feature meets the
+/// face.
 double missed(const ContactPatch& patch, double separation) {
     double least = kInfinity;
     for (int i = 0; i < patch.count; ++i)
@@ -303,22 +308,23 @@ double missed(const ContactPatch& patch, double separation) {
     return least - separation;
 }
 
-/// Whether the contact found on a face is that of the shapes: true only if they are apart or just
-/// touching, and the face meets the closest feature. No other axis then separates them better.
+/// Whether the contact found on a face is that of the shapes. True only if the shapes are apart or
+/// just touching and the face meets the closest feature; no other axis then separates the shapes
+/// better.
 bool settles(const ContactPatch& patch, double separation) {
     constexpr double kTouching = -1e-6;  // [m]
     return separation > kTouching && missed(patch, separation) < 1e-9;
 }
 
-/// Whether the best line gives the distance between the shapes better than the best face.
+/// Whether the distance between the shapes is given better by the best line than by the best face.
 bool is_line(const Best& best, const ContactPatch& patch) {
     if (best.kind == Best::line) return true;
     if (best.line_axis.isZero(0)) return false;
     return missed(patch, best.separation) > best.separation - best.line_separation;
 }
 
-/// The normals of the side of a cylinder or a cone: around the axis, tilted up by the slope of the
-/// side.
+/// The surface normals on the side of a cylinder or a cone: around the axis, tilted up by the slope
+/// of the side.
 struct SideNormals {
     Vec3 first, second, up;
 
@@ -330,12 +336,12 @@ struct SideNormals {
         up = std::sin(lean) * of.axis;
     }
     Vec3 at(double angle) const { return std::cos(angle) * first + std::sin(angle) * second + up; }
-    /// The angle of the normal nearest to u.
+    /// The angle at which the normal is nearest to u.
     double nearest(const Vec3& u) const { return std::atan2(second.dot(u), first.dot(u)); }
 };
 
-/// Tries the normals of the side of a shape, times `sign`. The distance as a function of the axis
-/// has a ridge along these normals, which climb() does not follow to its top.
+/// Tries the side normals of a shape, multiplied by `sign`, as axes. The distance as a function of
+/// the axis has a ridge along these normals, and climb() does not follow this ridge to its top.
 template <class Separation>
 void walk_around(const Placed& of, double sign, const Separation& along, double margin,
                  Best& best) {
@@ -362,12 +368,12 @@ void walk_around(const Placed& of, double sign, const Separation& along, double 
     best.take(most, sign * normals.at(angle), Best::line);
 }
 
-/// Distance between two round shapes along the unit vector u.
+/// Distance between two round shapes, measured along the unit vector u.
 double apart_along(const Placed& a, const Placed& b, const Vec3& u) {
     return u.dot(b.centre - a.centre) - a.extent(u) - b.extent(-u);
 }
 
-/// Tries a direction, either way, as the axis between two round shapes.
+/// Tries a direction and its opposite as the axis between two round shapes.
 void try_axis(const Placed& a, const Placed& b, Vec3 u, Best::Kind kind, Best& best) {
     const double size = u.norm();
     if (!(size > kTogether)) return;
@@ -376,17 +382,17 @@ void try_axis(const Placed& a, const Placed& b, Vec3 u, Best::Kind kind, Best& b
     best.take(apart_along(a, b, u), u, kind);
 }
 
-/// Tries the normals of the caps of one of two round shapes, if it has caps.
+/// Tries the cap normals of one of two round shapes, if it has caps.
 void try_caps(const Placed& a, const Placed& b, Best::Kind kind, Best& best) {
     const bool of_b = kind == Best::cap_of_b;
     const Placed& of = of_b ? b : a;
     if (!of.shape.has_rim()) return;
     if (!of.shape.is_cone()) return try_axis(a, b, of.axis, kind, best);
-    const Vec3 u = of_b ? of.axis : Vec3(-of.axis);  // of its base
+    const Vec3 u = of_b ? of.axis : Vec3(-of.axis);  // outward normal of the base
     best.take(apart_along(a, b, u), u, kind);
 }
 
-/// Climbs from the best line's axis to the best one near it, by shrinking strides in all
+/// Climbs from the axis of the best line to the best axis near it, with shrinking strides in all
 /// directions: the distance of convex shapes as a function of the axis has one peak, which may be a
 /// ridge. Shapes that are farther apart than the margin need no better axis.
 template <class Separation>
@@ -413,27 +419,27 @@ void climb(const Separation& along, double margin, Best& best) {
         }
         if (better == u) {
             stride /= 2;
-            turned += 1;  // so that no ridge is missed between repeated directions
+            turned += 1;  // makes sure that no ridge is missed between repeated directions
         }
         u = better;
     }
     best.take(most, u, Best::line);
 }
 
-/// Vertices and edges of a polyhedron, in the world.
+/// The vertices and edges of a polyhedron placed in the world.
 struct Corners {
     const Polyhedron& shape;
     const Pose& X_W;
     Vec3 vertex(int i) const { return X_W * shape.vertices[static_cast<size_t>(i)]; }
 
-    /// Farthest extent along u.
+    /// The polyhedron's farthest extent along u.
     double furthest(const Vec3& u) const {
         const Vec3 d = X_W.R.conjugate() * u;
         double out = -kInfinity;
         for (const Vec3& v : shape.vertices) out = std::max(out, d.dot(v));
         return out + u.dot(X_W.p);
     }
-    /// The vertex or edge that is farthest along u.
+    /// Finds the vertex or edge that is farthest along u.
     void feature(const Vec3& u, Polygon& out) const {
         constexpr double kLevel = 1e-5;  // [m]
         const double most = furthest(u);
@@ -452,7 +458,7 @@ struct Corners {
         out.count = 0;
         for (const int v : shape.faces[static_cast<size_t>(i)].vertices) out.add(vertex(v));
     }
-    /// The face whose normal is closest to u.
+    /// Index of the face whose normal is closest to u.
     int towards(const Vec3& u) const {
         const Vec3 d = X_W.R.conjugate() * u;
         size_t best = 0;
@@ -462,7 +468,7 @@ struct Corners {
     }
 };
 
-/// Tries the direction between the edges of `a` and the axis or the rim of `b`.
+/// Tries the directions between the edges of `a` and the axis or rim of `b`.
 void try_edges(const Corners& a, const Placed& b, double margin, Best& best) {
     const double rounding = rounding_of(b.shape);
     const Core core = Core::of(b.shape, rounding);
@@ -502,7 +508,7 @@ void try_edges(const Corners& a, const Placed& b, double margin, Best& best) {
     if (b.shape.is_cone()) walk_around(b, -1, along, margin, best);
 }
 
-/// The contacts of a cap, if the best axis is a cap's.
+/// Finds the contacts of a cap, if the best axis is that of a cap.
 void cap_contact(const Placed& a, const Placed& b, const Best& best, double margin,
                  ContactPatch& patch) {
     const bool of_b = best.kind == Best::cap_of_b;
@@ -515,7 +521,7 @@ void cap_contact(const Placed& a, const Placed& b, const Best& best, double marg
     if (of_b) flip(patch);
 }
 
-/// Tries the directions between two round shapes other than the normals of caps.
+/// Tries the directions between two round shapes, except for the cap normals.
 void try_lines(const Placed& a, const Placed& b, double margin, Best& best) {
     const auto [on_a, on_b] =
         closest(a.end(-1), a.end(1) - a.end(-1), b.end(-1), b.end(1) - b.end(-1));
@@ -537,12 +543,12 @@ void try_lines(const Placed& a, const Placed& b, double margin, Best& best) {
             walk_around(b, -1, along, margin, best);
         }
     }
-    if (best.axis.isZero(0))  // one is inside the other
+    if (best.axis.isZero(0))  // one shape is inside the other
         best.take(-a.extent(a.across) - b.extent(a.across), a.across, Best::line);
 }
 
-/// The best of the faces of `a` and of the caps of `b`, and in `flush` the face of `a` with
-/// which `b` is flush, or -1.
+/// Returns the best of the faces of `a` and the caps of `b`. Sets `flush` to the face of `a` with
+/// which `b` is flush, or to -1 if there is none.
 Best best_face(const Corners& a, const Placed& b, double margin, const Vec3& way_W, int& flush) {
     Best best;
     flush = -1;
@@ -556,14 +562,14 @@ Best best_face(const Corners& a, const Placed& b, double margin, const Vec3& way
     }
     if (!b.shape.has_rim()) return best;
     for (const double sign : {1.0, -1.0}) {
-        if (b.shape.is_cone() && sign < 0) break;  // a cone has its tip at this end
+        if (b.shape.is_cone() && sign < 0) break;  // a cone has its tip at this end, not a cap
         const Vec3 u = sign * b.axis;
         best.take(u.dot(b.centre) - b.shape.half - a.furthest(u), u, Best::cap_of_b);
     }
     return best;
 }
 
-/// The contacts of the best face or cap.
+/// Finds the contacts of the best face or cap.
 void face_contact(const Corners& a, const Placed& b, const Best& best, double margin,
                   ContactPatch& patch) {
     Polygon of_a;

@@ -1,4 +1,4 @@
-// Finds contacts of spheres, capsules, cylinders and cones: with each other, with convex polyhedra
+// Finds contacts of spheres, capsules, cylinders and cones with each other, with convex polyhedra
 // and with a half-space.
 //
 // As for polyhedra (polyhedron.h), we look for the axis along which the shapes are farthest apart:
@@ -14,9 +14,9 @@
 
 namespace dihaptic::dynamics {
 
-/// A sphere, capsule, cylinder or cone about the z axis of its frame.
+/// A sphere, capsule, cylinder or cone whose axis is the z axis of its frame.
 struct Round {
-    enum class Ends { round, flat, tip };  ///< tip: flat below, with a tip at the top of z
+    enum class Ends { round, flat, tip };  ///< tip: flat at the bottom, with a tip at the top (+z)
     double radius = 0;                     ///< [m]
     double half = 0;  ///< from the middle to a cap, a tip, or the centre of a round end [m]
     Ends ends = Ends::round;
@@ -25,7 +25,7 @@ struct Round {
     bool is_cone() const { return ends == Ends::tip; }
 };
 
-/// Like collide() for polyhedra. `turn_W` is the rotation of B relative to A in the coming step
+/// Like collide() for two polyhedra. `turn_W` is the rotation of B relative to A in the coming step
 /// [rad].
 ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Round& b, const Pose& X_WB,
                      double margin, const Vec3& way_W, const Vec3& turn_W = Vec3::Zero()) noexcept;

@@ -1,10 +1,11 @@
-// Decides when bodies sleep. A body is quiet while it hardly moves. Bodies that touch each other
-// fall asleep together, once each of them has been quiet for a while and no finger touches any of
-// them. They wake together, in the step in which an awake body touches one of them or a load is
-// applied.
+// Decides when bodies sleep. A body is called quiet while it hardly moves. Bodies that touch each
+// other fall asleep together, once each of them has been quiet for a while and no finger touches
+// any of them. They wake together, in the step in which an awake body touches one of them or a load
+// is applied.
 //
-// The limits are far below human perception. A sliding block passes through them within
-// milliseconds, while falling asleep takes half a second, so a sliding body is never frozen.
+// The speed limits are far below what people can perceive. A sliding block that slows down passes
+// through them within milliseconds, while falling asleep takes half a second, so a sliding body is
+// never frozen.
 #pragma once
 
 #include <span>
@@ -23,15 +24,15 @@ class SleepKeeper {
   public:
     explicit SleepKeeper(size_t bodies) : quiet_(bodies, 0.0), group_quiet_(bodies, true) {}
 
-    /// Notes that a body is not quiet, whatever its speed.
+    /// Marks a body as not quiet, whatever its speed.
     void stir(size_t body) noexcept { quiet_[body] = 0; }
-    /// Counts one step of an awake body.
+    /// Updates the quiet time of an awake body after one step.
     void observe(size_t body, const Vec3& v, const Vec3& w, double h) noexcept {
         const bool quiet = v.squaredNorm() < kQuietSpeed * kQuietSpeed &&
                            w.squaredNorm() < kQuietAngularSpeed * kQuietAngularSpeed;
         quiet_[body] = quiet ? quiet_[body] + h : 0.0;
     }
-    /// Checks all groups; may_sleep() then gives the result for each awake body.
+    /// Checks all groups. Afterwards, may_sleep() tells for each awake body whether it may sleep.
     void judge(std::span<const size_t> awake, Groups& groups) noexcept {
         for (const size_t body : awake) group_quiet_[groups.of(body)] = true;
         for (const size_t body : awake) {
@@ -44,7 +45,7 @@ class SleepKeeper {
 
   private:
     std::vector<double> quiet_;      // time for which each body has been quiet [s]
-    std::vector<char> group_quiet_;  // by the body that represents a group
+    std::vector<char> group_quiet_;  // indexed by the body that represents a group
 };
 
 }  // namespace dihaptic::dynamics

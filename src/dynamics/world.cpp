@@ -9,7 +9,7 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Replaces each of a solid's moments of inertia by their mean about B, and makes B its mass frame.
+/// Replaces the moments of inertia of a solid by their mean about B, and makes B its mass frame.
 void lump(scene::Solid& solid) {
     const double about_centre = solid.inertia.sum() / 3;
     solid.inertia.setConstant(about_centre + 2 * solid.mass / 3 * solid.X_BM.p.squaredNorm());
@@ -85,7 +85,7 @@ World::World(const scene::Scene& scene, const frame::DynamicsSettings& settings)
     impl_->scene = scene;
     impl_->settings = settings;
     for (const scene::Body& body : scene.bodies) {
-        // a driven body moves as if its mass were infinite: see inverse_mass_of()
+        // driven bodies move as if their mass were infinite: see inverse_mass_of()
         const double mass = body.fixed ? 0 : body.driven ? 1 : scene::mass(body);
         impl_->add(body.name, body.shape, mass, body.friction, body.torsion_radius, body.pose(),
                    body.fixed ? Vec3::Zero() : factors(body.moves),
@@ -133,7 +133,7 @@ void World::set_point(BodyIndex proxy, bool point) noexcept {
 }
 
 BodyIndex World::add_point(const scene::Finger& finger, const Vec3& p_WP, bool turns) {
-    // a point has no shape, but its body must have one
+    // a point has no shape, but its Bullet body needs one
     impl_->add(finger.name, scene::Shape::sphere(scene::kSmallest), finger.mass, finger.friction,
                finger.torsion_radius, {rotation_xyz(finger.rotation), p_WP}, Vec3::Ones(),
                Vec3::Constant(turns ? 1 : 0), turns);
@@ -186,7 +186,7 @@ void World::activate() {
     w.collision->manifolds().reserve(manifolds);
     w.contacts_of_islands.reserve(manifolds);
     w.island_contacts.reserve(manifolds);
-    // points keep their records for two steps, and few are added late
+    // points keep their records for two steps, and only a few are added late in a step
     w.carried_pool.reserve(MANIFOLD_CACHE_SIZE *
                            (static_cast<size_t>(w.collision->max_pairs()) +
                             Collision::kMostEntered +
@@ -280,7 +280,7 @@ void World::mend() noexcept {
         item.torque.setZero();
         item.drive_to.reset();
         if (w.is_sound(i)) continue;
-        // a proxy's position will follow from its handle
+        // the position of a proxy will follow from its handle
         const Pose X_WB = i < w.scene.bodies.size() ? w.scene.bodies[i].pose() : Pose{};
         set_pose({static_cast<int>(i)}, X_WB);
     }
@@ -336,7 +336,7 @@ void World::set_properties(BodyIndex body, const BodyProperties& properties) noe
         item.relief->scale(*item.texture, properties.texture_wavelength, properties.texture_height,
                            properties.texture_friction);
     if (!impl_->surfaces.empty()) impl_->pair_surfaces(i);
-    if (!item.can_move) {  // bodies on it may slip now
+    if (!item.can_move) {  // bodies that lie on this one may slip now
         for (const size_t k : impl_->can_move) impl_->wake(k, states_);
         return;
     }
@@ -404,14 +404,14 @@ void World::carry(BodyIndex proxy, const Quat& R_WP, const Vec3& w_WP) noexcept 
 void World::set_pose(BodyIndex body, const Pose& X_WB) noexcept {
     const auto i = static_cast<size_t>(body.value);
     Impl::Item& item = impl_->items[i];
-    if (item.can_move && !impl_->is_awake(i)) {  // bodies on it fall now
+    if (item.can_move && !impl_->is_awake(i)) {  // bodies that lie on this one fall now
         for (const size_t k : impl_->can_move) impl_->wake(k, states_);
     }
     item.body->setWorldTransform(to_bullet(X_WB * item.X_BM));
     item.body->updateInertiaTensor();
     item.body->setLinearVelocity({0, 0, 0});
     item.body->setAngularVelocity({0, 0, 0});
-    if (!impl_->is_sound(i)) impl_->diverged = true;  // steps do not check fixed bodies
+    if (!impl_->is_sound(i)) impl_->diverged = true;  // steps skip fixed bodies
     if (item.can_move) {
         impl_->wake(i, states_);
     } else {

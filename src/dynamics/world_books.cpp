@@ -1,4 +1,4 @@
-// Enters a step into its Books.
+// Enters a step into the books.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +19,7 @@ Books::Body World::Impl::account_of(const Item& item, const Vec3& gravity) {
     out.turns = item.turns;
     out.is_led = item.is_point || item.is_led();
     out.is_outside = item.is_proxy || out.is_led;
-    if (item.is_proxy) {  // its mass changes with its coupling
+    if (item.is_proxy) {  // a proxy's mass changes with its coupling
         out.masses.setConstant(item.body->getMass());
         out.moments = from_bullet(item.body->getLocalInertia());
         return out;
@@ -53,16 +53,16 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
     const Books::Meeting meeting = books.meet(exchange.a, exchange.b, exchange.p_W);
     const double normal = h * contact.normal_force;
     const double mean_work = normal * n_W.dot(meeting.v_mean);
-    // pressure and friction neither separate bodies nor drive their sliding
+    // pressure must not separate bodies, and friction must not drive their sliding
     double pressing = normal * n_W.dot(meeting.v_after);
     const Vec3 friction_W = exchange.impulse_W - normal * n_W;
     const double twisting = exchange.moment_W.dot(meeting.w_after);
     double rubbing = friction_W.dot(meeting.v_after) + twisting;
-    if (rubbing > 0) {  // velocities are tangents of the points' arcs
+    if (rubbing > 0) {  // velocities are tangential to the arcs of the points
         rubbing = friction_W.dot(books.way(exchange.a, exchange.b, exchange.p_W)) / h + twisting;
     }
     if (!ahead_of(point).isZero(0)) {
-        // a rolling rim touches with this point midway between before and after
+        // a rolling rim touches with this point halfway between before and after
         pressing = mean_work;
         rubbing = friction_W.dot(meeting.v_mean) + exchange.moment_W.dot(meeting.w_mean);
     }
@@ -71,12 +71,12 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
             const double k = law.stiffness / law.sharing;
             return gap < 0 ? k * gap * gap / 2 : 0;
         };
-        // velocities are those of the middle of steps
+        // velocities are those in the middle of steps
         exchange.stored_before = stored(contact.gap - h / 2 * n_W.dot(meeting.v_before()));
         exchange.stored_after = stored(contact.gap + h / 2 * n_W.dot(meeting.v_after));
         pressing = mean_work + exchange.stored_after - exchange.stored_before;
     } else if (law.restitution > 0) {
-        // the time of the contact within the step is unknown, and so is the loads' work until then
+        // the time of contact within the step is unknown, and so is the loads' work until then
         pressing = mean_work - std::abs(loads_at(contact, point) * h);
     }
     if (law.stiffness == 0 && law.compliance == 0)

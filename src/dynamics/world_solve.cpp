@@ -1,7 +1,8 @@
-// The islands of a step, and their impulses (stages 4 and 5 of world_step.cpp): an island is solved
-// for the velocities at the end of the step, again with better guesses of these where joints or
-// free turns are not linear, and once more if something in it bounces. Neither a bounce nor a solve
-// that missed may add energy (README.md of this room).
+// Finds the islands of a step, and their impulses (stages 4 and 5 of world_step.cpp). Each island
+// is solved for the velocities at the end of the step, repeatedly with better guesses of these
+// velocities if joints or free turns are not linear, and once more if something in the island
+// bounces. Neither a bounce nor a solve that misses the tolerance may add energy (README.md in this
+// folder).
 #include <algorithm>
 #include <limits>
 
@@ -10,10 +11,10 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Largest number of visits in the solve of an island without a finger, if a hand waits for the
-/// tick: enough for newton on stacks of ten; heaps are solved by sweeps.
+/// Maximum number of visits in the solve of an island without a finger while a hand waits for the
+/// tick: enough for newton on stacks of ten bodies; heaps are solved by sweeps.
 constexpr int kMostWork = 4000;
-/// No bound on an energy.
+/// Represents an unbounded energy.
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -63,7 +64,7 @@ void World::Impl::find_islands() {
 
 int64_t World::Impl::held_islands() const {
     int64_t count = 0;
-    size_t last = items.size();  // the following islands have no finger
+    size_t last = items.size();  // the islands from here on have no finger
     for (const auto& contact : contacts_of_islands) {
         if (contact.island >= items.size()) break;
         if (contact.island != last) ++count;
@@ -138,8 +139,8 @@ void World::Impl::let_bounce(const contact::SolveSettings& how, double h,
     problem.store(island_contacts);
     for (size_t i = 0; i < island_bodies.size(); ++i) {
         const contact::Vec6 bounced = solvers.velocity_change(static_cast<int>(i));
-        // because of rounding, first + (bounced - first) would differ from bounced in the last
-        // digit
+        // if share is 1, use `bounced` itself: first + (bounced - first) would differ from it in
+        // the last digit, due to rounding
         island_change[i] =
             share == 1 ? bounced
                        : contact::Vec6(island_change[i] + share * (bounced - island_change[i]));
@@ -226,24 +227,24 @@ double World::Impl::share_of_bounce() const {
     }
     const double room = std::max(most - first, 1e-9 * first);
     if (2 * product + added <= room) return 1;
-    // solves added s^2 + 2 product s = room
+    // solution of added s^2 + 2 product s = room
     return (std::sqrt(product * product + added * room) - product) / added;
 }
 
 contact::Solver World::Impl::solver_of_island() const {
-    // sweeps leave errors in chains of joints, which then gain energy from step to step
+    // sweeps leave errors in chains of joints, which would gain energy from step to step
     const bool sweeps = settings.solver == contact::Solver::sequential_impulse;
     return sweeps && !island_joints.empty() ? contact::Solver::newton : settings.solver;
 }
 
 contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& how, double h) {
     constexpr int kMostGuesses = 8;
-    /// Each guess of a free rotation multiplies the error by half of the angle turned in a step.
-    /// More guesses do not help if a stiff spring turns a body back within the step.
+    /// Each guess of a free rotation multiplies the error by half the angle turned in a step. More
+    /// guesses do not help if a stiff spring turns a body back within the step.
     constexpr int kMostTurnGuesses = 3;
     constexpr double kSame = 1e-9;  // [m/s], [rad/s]
-    /// Guesses that still differ by this will not converge: the joined bodies turn too fast for
-    /// the step [m/s], [rad/s].
+    /// If guesses still differ by this much, they will not converge, because the joined bodies turn
+    /// too fast for the step [m/s], [rad/s].
     constexpr double kLost = 1e-2;
     const contact::Solver solver = solver_of_island();
     int iterations = 0;
@@ -255,7 +256,7 @@ contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& ho
         iterations = stats.iterations += iterations;
         work_before = stats.work += work_before;
         const bool is_last = guess > kMostGuesses || stats.route == contact::Route::out_of_work;
-        // the island's joints then have small errors
+        // the last guess leaves small errors in the island's joints
         stats.missed = stats.missed || (is_last && !island_joints.empty());
         if (is_last || stats.refused) return stats;
         island_change.clear();

@@ -2,7 +2,7 @@
 //
 //   1 loads         v <- v + h M^-1 (m g + f): gravity, applied forces and torques, before any
 //                   contact, so that friction responds to all loads of this step. In Bullet's own
-//                   order it does not see torques, and a held block turns under them. A driven
+//                   order, friction does not respond to torques, and a held block turns. A driven
 //                   body gets the velocity that takes it to its target instead.
 //   2 free turns    w becomes its mean over the step in which the body turns freely (free_turn.h):
 //                   contacts and joints need the final poses, which this mean gives.
@@ -27,8 +27,8 @@
 //                   groups that have been quiet for long enough fall asleep.
 //
 // A step never throws, allocates or reads a clock: its work is counted and bounded instead, so that
-// a replay repeats it to the bit. A step that diverges has no contacts and reports it, and later
-// steps do nothing until mend(). README.md of this room has the equations.
+// a replay repeats it bit for bit. A step that diverges reports this and has no contacts, and later
+// steps do nothing until mend(). README.md in this folder has the equations.
 #include <algorithm>
 
 #include "dynamics/free_turn.h"
@@ -37,9 +37,10 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Limit of further solves of a step, with contacts that were missing.
+/// Maximum number of additional solves of a step with contacts that were missing.
 constexpr int kMostPasses = 4;
-/// A body that contacts move by more than this may meet bodies that its bounds did not foresee [m].
+/// A body that contacts move by more than this may meet bodies that its bounds did not anticipate
+/// [m].
 constexpr double kKnocked = 1e-3;
 
 ContactLaw law_of(const scene::PairSurface& surface, int sharing) {
@@ -71,14 +72,14 @@ StepStatus World::step(double h) noexcept {
     w.books.begin(h);
     w.open_books(gravity_, false);
     w.integrate_loads(h, gravity_);
-    if (!w.all_sound()) {  // before any search by position
+    if (!w.all_sound()) {  // check before any search by position
         for (const size_t i : w.awake) w.read_state(i, states_[i]);
         w.note_stepped();
         return diverge();
     }
     w.update_bounds(h);
     w.collision->find_contacts(h);
-    w.collect_awake(states_);  // some may have woken
+    w.collect_awake(states_);  // some bodies may have woken up
     w.open_books(gravity_, true);
     w.prepare_contacts(w.collision->manifolds(), h);
     for (btPersistentManifold* manifold : w.collision->manifolds()) even_out(*manifold);
@@ -118,7 +119,7 @@ bool World::Impl::publish_contacts(double h, std::vector<contact::Contact>& out)
             contact.friction = point.m_combinedFriction;
             contact.normal_force = impulse.normal / h;
             contact.f_B_W = (impulse.normal * contact.n_W - impulse.friction_W) / h;
-            // on the other body, about the opposite normal
+            // acts on the other body, about the opposite normal
             contact.moment = impulse.moment / h;
             take(contact, point, h);
         }
@@ -181,7 +182,7 @@ void World::Impl::collect_awake(std::vector<BodyState>& states) {
 contact::Mat6 World::Impl::inverse_mass_of(const Item& item) const {
     contact::Mat6 out = contact::Mat6::Zero();
     if (item.is_led()) return out;
-    // the body's inertia may differ between the world's axes
+    // a body's inertia to linear motion may differ between the world's axes
     out.diagonal().head<3>() = item.properties.mass.cwiseInverse() * item.body->getInvMass();
     out.bottomRightCorner<3, 3>() = from_bullet(item.body->getInvInertiaTensorWorld());
     for (int i = 0; i < 3; ++i) {
@@ -253,7 +254,7 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         if (item.turns_freely())
             body.setAngularVelocity(to_bullet(mean_velocity(item, from_bullet(item.w_start), h)));
         item.w_free = body.getAngularVelocity();
-        // contacts are searched in advance with these velocities
+        // with these velocities, contacts are searched for in advance
         body.setInterpolationLinearVelocity(body.getLinearVelocity());
         body.setInterpolationAngularVelocity(body.getAngularVelocity());
     }
@@ -273,7 +274,7 @@ bool World::Impl::is_sound(size_t i) const {
     const double size = X.getOrigin().length2() + body.getLinearVelocity().length2() +
                         body.getAngularVelocity().length2() + R[0].length2() + R[1].length2() +
                         R[2].length2();
-    return size <= kBeyond * kBeyond;  // false for values that are not numbers
+    return size <= kBeyond * kBeyond;  // false if a value is not a number
 }
 
 bool World::Impl::all_sound() const {
@@ -332,7 +333,7 @@ void World::Impl::widen_bounds(double h) {
 }
 
 void World::Impl::hold_back(double h, contact::Work& search) {
-    constexpr int kMostRounds = 8;  // others may run into waiting bodies
+    constexpr int kMostRounds = 8;  // other bodies may run into waiting ones
     widen_bounds(h);
     for (int round = 0; round < kMostRounds && all_sound(); ++round) {
         if (!collision->hold_back(h, search)) break;
@@ -340,7 +341,7 @@ void World::Impl::hold_back(double h, contact::Work& search) {
     }
     for (const size_t i : awake) {
         constexpr double kStands = 0.01;
-        constexpr int kMostStood = 2;  // [steps]: contacts have acted by then
+        constexpr int kMostStood = 2;  // [steps]: contacts will have acted by then
         Item& item = items[i];
         if (item.body->getHitFraction() < kStands && ++item.stood > kMostStood)
             item.body->setHitFraction(1);
@@ -374,7 +375,7 @@ void World::Impl::prepare_contacts(std::span<btPersistentManifold* const> manifo
             btManifoldPoint& point = manifold->getContactPoint(i);
             point.m_combinedFriction = friction_of(a, b);
             carried(point).law = law_of(surface, count);
-            // a finger does not bounce: a held body would drum on it
+            // a finger does not bounce, because a held body would drum on it
             if (items[a].is_proxy || items[b].is_proxy) carried(point).law.restitution = 0;
         }
         if (has_texture(*manifold)) let_feel(*manifold);
@@ -405,7 +406,7 @@ void World::Impl::let_feel(btPersistentManifold& manifold) const {
         const Vec3 n_W = from_bullet(point.m_normalWorldOnB);
         const scene::Relief of_a = relief_at(a, p_W, -n_W);
         const scene::Relief of_b = relief_at(b, p_W, n_W);
-        // the owner of a point already included friction and textures
+        // the owner of a point has already included friction and textures
         if (!items[a].is_point && !items[b].is_point)
             point.m_combinedFriction *= of_a.friction * of_b.friction;
         carried(point).law.height = of_a.height + of_b.height;
@@ -466,7 +467,7 @@ void World::Impl::integrate_positions(double h) {
         Item& item = items[i];
         btRigidBody& body = *item.body;
         if (item.turns_freely()) {
-            // contacts and joints act at the start of the step
+            // contacts and joints act at the beginning of the step
             const btVector3& w_after = item.bounces ? item.w_leaves : body.getAngularVelocity();
             const btVector3 change = w_after - item.w_free;
             item.L_W = momentum(item, limited(from_bullet(item.w_start + change), h));
@@ -512,7 +513,7 @@ void World::Impl::let_sleep(double h, std::vector<BodyState>& states) {
     if (!settings.sleeping) return;
     for (const size_t i : awake) {
         if (items[i].is_proxy) {
-            sleep->stir(i);  // no body that a finger touches may sleep
+            sleep->stir(i);  // no body touched by a finger may sleep
         } else {
             sleep->observe(i, states[i].v_WB, states[i].w_WB, h);
         }

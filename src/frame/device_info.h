@@ -1,5 +1,6 @@
-// Describes a device's identity and capabilities, and the hand that holds it. A backend reports
-// them, a session records them, and the replay uses them again; all three follow from visit().
+// Describes a device's identity and capabilities, and the hand that holds it. A device backend
+// reports this description, a session records it, and a replay uses it again; all three follow from
+// visit().
 #pragma once
 
 #include <limits>
@@ -14,32 +15,33 @@ namespace dihaptic::frame {
 
 struct DeviceInfo {
     std::string model;
-    std::string serial;  ///< "" if the device does not report one
-    /// Whether no person's hand holds the device; if so, a late force harms nobody.
+    std::string serial;  ///< serial number; "" if the device does not report one
+    /// Whether the device is simulated, i.e. not held by a person's hand, so that a late force
+    /// harms nobody.
     bool simulated = false;
-    /// Peak force; infinite if unknown, as for a real device that has not been opened yet
-    /// [N].
+    /// Peak force [N]; infinite if unknown, as for a real device that has not been opened yet.
     double peak_force = std::numeric_limits<double>::infinity();
     /// Force that the device can sustain [N].
     double continuous_force = std::numeric_limits<double>::infinity();
-    std::optional<Vec3> workspace;  ///< edges of the box around D's origin [m]
+    std::optional<Vec3> workspace;  ///< edge lengths of the box around D's origin [m]
     bool measures_orientation = false;
-    double peak_torque = 0;  ///< 0: the device renders no torque [N*m]
+    double peak_torque = 0;  ///< 0 if the device renders no torque [N*m]
     /// Torque that the device can sustain [N*m].
     double continuous_torque = std::numeric_limits<double>::infinity();
-    /// Factor by which readings exceed the hand's movement, and by which the forces listed here
-    /// exceed those in the hand.
+    /// Factor by which the readings are larger than the movement of the hand, and by which the
+    /// forces listed here are larger than the forces at the hand.
     double scale = 1;
-    double delay = 0;  ///< time from write() to force [s]
-    /// Largest stiffness [N/m] and damping [N*s/m] that the device renders stably, if its
-    /// manufacturer states them: settings given as fractions of a maximum refer to these.
+    double delay = 0;  ///< time from write() until the force acts [s]
+    /// Largest stiffness [N/m] and damping [N*s/m] that the device renders stably, if the
+    /// manufacturer states them. Settings that are given as fractions of a maximum refer to these
+    /// values.
     std::optional<double> max_stiffness;
     std::optional<double> max_damping;
-    /// Links of a Premium that reports joint angles, from which p_DH follows.
+    /// Link lengths of a Premium that reports joint angles, from which p_DH is computed.
     std::optional<model::PhantomLinks> arm;
 
-    // of handle and hand together; 0: not known
-    double damping = 0;       ///< limits the stable stiffness [N*s/m]
+    // for handle and hand together; 0 if not known
+    double damping = 0;       ///< damping, which limits the stable stiffness [N*s/m]
     double mass = 0;          ///< [kg]
     double turn_damping = 0;  ///< [N*m*s/rad]
     double inertia = 0;       ///< [kg*m^2]
@@ -67,7 +69,8 @@ struct DeviceInfo {
         v("inertia", inertia, Field::of(Quantity::inertia));
     }
 
-    /// The same device in the units of a world in which its movement is `s` times the hand's.
+    /// Returns the same device in the units of a world in which the device's movement is `s` times
+    /// the movement of the hand.
     DeviceInfo scaled(double s) const {
         DeviceInfo out = *this;
         out.scale *= s;

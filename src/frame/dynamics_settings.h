@@ -10,19 +10,19 @@ namespace dihaptic::frame {
 
 struct DynamicsSettings {
     contact::Solver solver = contact::Solver::newton;
-    int every = 1;            ///< number of servo ticks per step of the world
-    int iterations = 200;     ///< limit of iterations in a step, for sequential_impulse
-    double tolerance = 1e-7;  ///< sequential_impulse ends when an iteration changes no contact's
-                              ///< velocity by more [m/s]
-    int friction_directions = 8;  ///< number for stewart_trinkle's friction polygon
+    int every = 1;            ///< number of servo ticks per world step
+    int iterations = 200;     ///< maximum number of iterations in a step, for sequential_impulse
+    double tolerance = 1e-7;  ///< sequential_impulse ends when an iteration changes the velocity of
+                              ///< every contact by no more than this [m/s]
+    int friction_directions = 8;  ///< number of directions in stewart_trinkle's friction polygon
     contact::DirectionFrame friction_frame =
-        contact::DirectionFrame::sliding;  ///< orientation: along sliding, or fixed
-    bool warm_start = true;                ///< start from the contact forces of the last step
+        contact::DirectionFrame::sliding;  ///< orientation: along the sliding direction, or fixed
+    bool warm_start = true;  ///< whether to start from the contact forces of the last step
     double penetration_recovery =
-        0.2;               ///< fraction of a penetration that one step removes (Bullet's erp2)
-    bool sleeping = true;  ///< leave untouched objects at rest out of the step
-    int max_contacts =
-        0;  ///< number of contact points with reserved memory; 0: by the number of bodies
+        0.2;  ///< fraction of a penetration that is removed in one step (Bullet's erp2)
+    bool sleeping = true;  ///< whether to leave untouched objects that are at rest out of the step
+    int max_contacts = 0;  ///< number of contact points for which memory is reserved; 0: depends on
+                           ///< the number of bodies
 
     template <class Visitor>
     void visit(Visitor& v) {

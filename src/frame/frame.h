@@ -1,5 +1,5 @@
-// The Frame is the record of a tick. Each quantity is described once, in visit(), from which log,
-// NWB file, docs/quantities.md, summaries and plots all follow.
+// The Frame is the record of a tick. Each quantity is described once, in visit(), from which the
+// log, the NWB file, docs/quantities.md, summaries and plots are all derived.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace dihaptic::frame {
 
-using enum Status;  // the bits of a Frame, e.g. kStopped
+using enum Status;  // the status bits of a Frame, e.g. kStopped
 
 struct FingerFrame {
     Vec3 p_DH = Vec3::Zero();
@@ -153,7 +153,7 @@ struct ContactFrame {
     }
 };
 
-/// A Frame contains the Knobs in effect.
+/// A Frame contains the Knobs that are in effect in its tick.
 struct Frame : Knobs {
     int64_t sequence = 0;
     Time time{0};
@@ -162,14 +162,14 @@ struct Frame : Knobs {
     uint32_t status = 0;
     double grip_force = kUnmeasured;
     double load_force = 0;
-    // summary over the step's islands: bodies that touch, directly or through others, are solved
-    // separately from the rest
+    // summary over the islands of the step; an island is a set of bodies that touch, directly or
+    // through other bodies, and that are solved separately from the rest
     int32_t solver_iterations = 0;
     int32_t solver_fallback = 0;
     int32_t solver_route = 0;  ///< contact::Route
     double solver_residual = 0;
     double solver_held_residual = kUnmeasured;
-    // energy and momentum balance of the step (dynamics/balance.h)
+    // energy and momentum balances of the step (dynamics/balance.h)
     double kinetic_energy = kUnmeasured;
     double potential_energy = kUnmeasured;
     double work = kUnmeasured;
@@ -183,12 +183,12 @@ struct Frame : Knobs {
     std::vector<FingerFrame> fingers;
     std::vector<TurnFrame> turns;
     std::vector<BodyFrame> bodies;
-    /// The bodies that changed since the last frame; only these are logged.
+    /// Indices of the bodies that changed since the last frame; only these bodies are logged.
     std::vector<uint16_t> changed;
     std::vector<JointFrame> joints;
     std::vector<ContactFrame> contacts;
 
-    /// Calls v(value, Term) for values, and for lists v.each(name, list, meaning) or
+    /// Calls v(value, Term) for each value and, for each list, v.each(name, list, meaning) or
     /// v.changed(name, list, which, meaning).
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {

@@ -11,7 +11,7 @@
 
 namespace dihaptic::frame {
 
-/// Upper limits: the stiffest admittance displays render about 5e4 N/m and 1e3 N*s/m, and no hand
+/// Upper limits. The stiffest admittance displays render about 5e4 N/m and 1e3 N*s/m, and no hand
 /// needs to bear more than a kilonewton.
 constexpr double kMostStiffness = 1e5;  // [N/m]
 constexpr double kMostDamping = 1000;   // [N*s/m]
@@ -26,23 +26,23 @@ constexpr auto enum_names(CouplingKind) {
 struct CouplingSettings {
     CouplingKind kind = CouplingKind::implicit;
     double stiffness = 1000;        ///< k [N/m]
-    std::optional<double> damping;  ///< c [N*s/m]; unset: k h / 2, with h the dynamics step
+    std::optional<double> damping;  ///< c [N*s/m]; if unset, k h / 2, where h is the dynamics step
     /// Stiffness and damping as fractions of the largest values that the devices render calmly.
-    /// They are converted to N/m and N*s/m, and reset, once these are known.
+    /// Once these values are known, the fractions are converted to N/m and N*s/m, and reset.
     std::optional<double> stiffness_share;
     std::optional<double> damping_share;
-    double turn_stiffness = 1;           ///< k_r, if the device measures orientation [N*m/rad]
-    std::optional<double> turn_damping;  ///< c_r [N*m*s/rad]; unset: k_r h / 2
-    double onset = 0;  ///< time from first touch to full stiffness and damping; 0: at once [s]
+    double turn_stiffness = 1;           ///< k_r, used if the device measures orientation [N*m/rad]
+    std::optional<double> turn_damping;  ///< c_r [N*m*s/rad]; if unset, k_r h / 2
+    double onset = 0;  ///< time from first touch to full stiffness and damping [s]; 0: no delay
 
-    // dual spring only
-    double body_mass = 0.02;         ///< replaces the proxy's own mass: an explicit spring diverges
-                                     ///< above about m / h^2 [kg]
-    double body_damping_along = 2;   ///< c_b,par: along the line from handle to proxy [N*s/m]
-    double body_damping_across = 2;  ///< c_b,perp: across that line [N*s/m]
-    double free_stiffening = 10;     ///< k_b / k while the proxy touches nothing
+    // only for the dual spring
+    double body_mass = 0.02;  ///< replaces the proxy's own mass; an explicit spring with k above
+                              ///< about m / h^2 diverges [kg]
+    double body_damping_along = 2;   ///< c_b,par, along the line from handle to proxy [N*s/m]
+    double body_damping_across = 2;  ///< c_b,perp, perpendicular to that line [N*s/m]
+    double free_stiffening = 10;     ///< k_b / k, used while the proxy touches nothing
     double smoothing =
-        0.2;  ///< alpha: fraction of the new force in the force sent; 1: no smoothing
+        0.2;  ///< alpha, the weight of the new force in the force sent; 1: no smoothing
 
     bool operator==(const CouplingSettings&) const = default;
 
@@ -98,8 +98,8 @@ struct CouplingSettings {
     }
 
   private:
-    /// A value and its fraction are two forms of one setting. The later file takes precedence, and
-    /// a file may contain only one form.
+    /// A value and the same value as a fraction are two forms of one setting. The later file takes
+    /// precedence, and a single file may contain only one of the forms.
     template <class Reader>
     static void one_of_two(Reader& v, const std::string& name, Quantity quantity,
                            std::optional<double>& share) {
@@ -114,8 +114,8 @@ struct CouplingSettings {
     }
 };
 
-/// Where a point's friction is computed: in the step of the world, together with all bodies that it
-/// acts on, or separately, as in OpenHaptics' HL.
+/// Where the friction of a point proxy is computed: in the step of the world, together with all
+/// bodies on which the friction acts, or separately, as in OpenHaptics' HL.
 enum class PointFriction { together, apart };
 constexpr auto enum_names(PointFriction) {
     return std::array{"together", "apart"};
@@ -123,15 +123,14 @@ constexpr auto enum_names(PointFriction) {
 
 /// How fingers are represented in the world.
 struct ProxySettings {
-    scene::ProxyKind kind =
-        scene::ProxyKind::rigid;  ///< kind of fingers whose kind the scene does not give
+    scene::ProxyKind kind = scene::ProxyKind::rigid;   ///< kind of proxy for fingers whose kind is
+                                                       ///< not given by the scene
     PointFriction friction = PointFriction::together;  ///< point
-    double sliding_friction = 1;  ///< point: dynamic friction relative to static friction
-    /// For a point: a body pressed harder than this yields and is not felt again until the
-    /// point has left it [N]. Unset: no body yields.
+    double sliding_friction = 1;  ///< for a point: ratio of dynamic to static friction
+    /// For a point: a body that is pressed harder than this yields, and is not felt again until the
+    /// point has left the body [N]. If unset, no body yields.
     std::optional<double> popthrough;
-    bool changeable =
-        false;  ///< whether the kind may change during a session, at the user's request
+    bool changeable = false;  ///< whether the user may change the kind during a session
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -150,7 +149,7 @@ struct ProxySettings {
         v("changeable", changeable, says("Whether the kind can change during a session."));
     }
 
-    /// The kind of a finger's proxy, given the finger's own kind, if it has one.
+    /// Returns the kind of a finger's proxy, given the kind that is set for this finger, if any.
     scene::ProxyKind of(const std::optional<scene::ProxyKind>& own) const {
         return own.value_or(kind);
     }
@@ -161,45 +160,46 @@ constexpr auto enum_names(EnergyGuardMode) {
     return std::array{"off", "warn", "act"};
 }
 
-/// Time within which a force that is no longer requested falls to zero; the Limiter ensures
-/// this. With a slower limit, a hand that no longer touches anything would be pushed for longer
-/// than it takes to notice this [s].
+/// Time within which a force that is no longer requested falls to zero [s]; the Limiter ensures
+/// this. A slower decrease would push a hand that no longer touches anything for longer than it
+/// takes to notice this.
 constexpr double kLongestFall = 0.1;
-/// Rates that bring a Premium's 8.5 N and the sigma.7's 0.4 N*m to zero in that time.
+/// Rates that bring a Premium's 8.5 N and the sigma.7's 0.4 N*m to zero within kLongestFall.
 constexpr double kLeastForceRate = 85;  // [N/s]
 constexpr double kLeastTorqueRate = 4;  // [N*m/s]
 
 /// Limits on every force, whatever its source, and conditions that switch force off.
 struct SafetySettings {
-    std::optional<double> max_force;   ///< magnitude [N]; unset: the device's peak force
-    double max_force_rate = 3000;      ///< magnitude of the change of force [N/s]
-    std::optional<double> max_torque;  ///< magnitude [N*m]; unset: the device's peak torque
+    std::optional<double> max_force;   ///< magnitude [N]; if unset, the device's peak force
+    double max_force_rate = 3000;      ///< magnitude of the rate of change of the force [N/s]
+    std::optional<double> max_torque;  ///< magnitude [N*m]; if unset, the device's peak torque
     double max_torque_rate =
-        150;                ///< magnitude of the change of torque: max_force_rate at 5 cm [N*m/s]
-    double max_speed = 10;  ///< speed of a handle; a throwing hand reaches a few m/s [m/s]
-    /// Longest time from one tick to the next, during which a force is held; longer than any tick
-    /// [s].
+        150;  ///< magnitude of the rate of change of the torque: max_force_rate at 5 cm [N*m/s]
+    double max_speed = 10;  ///< maximum speed of a handle; a throwing hand reaches a few m/s [m/s]
+    /// Longest time between two ticks, during which the last force is held; must be longer than any
+    /// tick [s].
     double max_pause = 0.04;
-    /// Longest delay of a tick's start; unset: only `max_pause` applies [s].
+    /// Longest delay of the start of a tick [s]; if unset, only `max_pause` applies.
     std::optional<double> max_late;
-    /// Damping of handle and hand, which determines the stiffness allowed for a late loop;
-    /// unset: the devices' values, or a loose hand's [N*s/m].
+    /// Damping of handle and hand together, which determines the stiffness that is allowed when the
+    /// loop is late [N*s/m]; if unset, the values of the devices or of a loose hand are used.
     std::optional<double> hand_damping;
-    /// Time constant with which the device's motors warm and cool: of the order of a small motor's
-    /// winding [s].
+    /// Time constant with which the device's motors heat up and cool down, about that of a small
+    /// motor's winding [s].
     double heating_time = 10;
     double workspace_stiffness = 500;  ///< wall at the limit of reach; 0: no wall [N/m]
-    double soft_start = 0.5;           ///< time over which force rises after being switched on [s]
-    std::string dead_man_finger;  ///< finger whose device has the dead-man switch; empty: no switch
+    double soft_start = 0.5;           ///< time over which force rises after it is switched on [s]
+    std::string dead_man_finger;  ///< finger whose device has the dead-man switch; empty if there
+                                  ///< is no switch
     int dead_man_button = 0;      ///< index of the switch among the device's buttons
     EnergyGuardMode energy_guard = EnergyGuardMode::warn;
 
-    /// Limit of the force's magnitude for a device with this peak force, both `scale` times as
-    /// large as the hand feels them [N].
+    /// Returns the limit on the magnitude of the force for a device with this peak force, if both
+    /// are `scale` times as large as what the hand feels [N].
     double largest_force(double peak, double scale = 1) const {
         return max_force ? std::min(*max_force * scale, peak) : peak;
     }
-    /// Limit of the torque's magnitude for a device with this peak torque [N*m].
+    /// Returns the limit on the magnitude of the torque for a device with this peak torque [N*m].
     double largest_torque(double peak) const { return std::min(max_torque.value_or(peak), peak); }
 
     template <class Visitor>

@@ -1,6 +1,6 @@
 // Knobs are settings that may change during a session. A director orders them, each Frame records
 // their values, a replay orders them again, events.csv lists each change, and the operator's window
-// has a panel for them. All this follows from visit().
+// has a panel for them. All of this is derived from visit().
 #pragma once
 
 #include <cmath>
@@ -16,14 +16,14 @@ namespace dihaptic::frame {
 struct Knob {
     const char* name;  ///< name of its column in the log
     const char* unit;
-    const char* what;  ///< one sentence
-    /// Its name in events.csv, the window's log and the panel, with & before its shortcut
-    /// letter; null: it appears in none of these.
+    const char* what;  ///< description in one sentence
+    /// Name of the knob in events.csv, in the window's log and in the panel, with & before the
+    /// shortcut letter; null if the knob appears in none of these.
     const char* key = nullptr;
     const char* label = nullptr;
     double least = 0, most = 0, step = 0;  ///< range and step of a number in the panel
-    const char* unset = nullptr;           ///< the meaning of NaN
-    bool eased = false;  ///< a user's change is gradual, so that held objects are not dropped
+    const char* unset = nullptr;           ///< what NaN means for this knob
+    bool eased = false;  ///< whether user changes are gradual, so that held objects are not dropped
 
     constexpr Knob within(double low, double high, double by) const {
         Knob k = *this;
@@ -47,17 +47,17 @@ struct Knob {
 struct Knobs {
     CouplingKind coupling{};
     double stiffness = 0;  ///< k [N/m]
-    double damping = 0;    ///< c [N*s/m]; NaN: k h / 2
+    double damping = 0;    ///< c [N*s/m]; if NaN, k h / 2 is used
     double smoothing = 0;  ///< alpha
-    /// The proxy kind of all fingers whose kind may change and is not set by the scene. The code
-    /// that orders another kind must ensure that these fingers touch nothing.
+    /// The proxy kind of all fingers whose kind may change and is not set by the scene. Code that
+    /// orders a different kind must ensure that these fingers touch nothing.
     scene::ProxyKind proxy{};
-    double friction_scale = 1;  ///< factor on every coefficient of friction
-    /// Angle of WorkspaceTurn in the tick [rad]. It follows from the rate; ordering an angle has no
-    /// effect.
+    double friction_scale = 1;  ///< factor on every friction coefficient
+    /// Angle of WorkspaceTurn in this tick [rad]. The angle is computed from the rate; ordering an
+    /// angle has no effect.
     double workspace_turn = 0;
-    double workspace_rate = 0;  ///< rate of workspace_turn until the next tick [rad/s]
-    contact::Solver solver{};   ///< effective from the next step of the world
+    double workspace_rate = 0;  ///< rate of change of workspace_turn until the next tick [rad/s]
+    contact::Solver solver{};   ///< takes effect in the next step of the world
 
     /// Calls v(member, Knob) for each knob, in the order of the log.
     template <class Visitor>
@@ -97,7 +97,7 @@ struct Knobs {
           Knob{"solver", "1", "Contact solver requested.", "dynamics.solver", "Contact so&lver"});
     }
 
-    /// The knobs at the start of a session with these settings.
+    /// Returns the knobs at the start of a session that has these settings.
     static Knobs of(const Settings& settings) noexcept {
         Knobs out;
         out.set_coupling(settings.coupling);
@@ -111,7 +111,7 @@ struct Knobs {
         damping = settings.damping.value_or(kUnmeasured);
         smoothing = settings.smoothing;
     }
-    /// The settings with the values of these knobs.
+    /// Returns the settings with the values of these knobs filled in.
     CouplingSettings coupled(CouplingSettings settings) const noexcept {
         settings.kind = coupling;
         settings.stiffness = stiffness;
@@ -120,14 +120,14 @@ struct Knobs {
         return settings;
     }
 
-    /// Whether two values of a knob are equal; NaN is equal to itself.
+    /// Whether two values of a knob are equal; NaN counts as equal to NaN.
     template <class T>
     static constexpr bool same(T a, T b) noexcept {
         return a == b || (a != a && b != b);
     }
 };
 
-/// A knob's value, in words.
+/// Formats the value of a knob, in words.
 std::string words(const Knob& knob, double value);
 template <NamedEnum E>
 std::string words(const Knob& /*knob*/, E value) {

@@ -1,6 +1,6 @@
-// All settings that scene, rig, experiment and command line can set. The later source takes
-// precedence, except for `safety`, which belongs to the rig and can only be tightened by the others
-// (session/safety_limits.h).
+// All settings that can be given in the scene, the rig, the experiment and on the command line. The
+// later source takes precedence, except for `safety`, which belongs to the rig and can only be made
+// stricter by the other sources (session/safety_limits.h).
 #pragma once
 
 #include "frame/dynamics_settings.h"

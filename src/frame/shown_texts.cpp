@@ -10,8 +10,8 @@
 namespace dihaptic::frame {
 namespace {
 
-/// Reads ":.Nf" up to the closing brace, which is not part of `format`; false if there is no such
-/// format.
+/// Parses a number format ":.Nf" (without the closing brace), which may be empty. Returns false if
+/// the format is invalid.
 bool read_format(std::string_view format, int& decimals) {
     if (format.empty()) return true;
     const bool fits = format.size() == 4 && format.starts_with(":.") && format[3] == 'f' &&
@@ -20,7 +20,7 @@ bool read_format(std::string_view format, int& decimals) {
     return fits;
 }
 
-/// Reads the placeholder that starts at the brace `begin`.
+/// Parses the placeholder that starts with the brace at index `begin`.
 Placeholder placeholder(std::string_view text, size_t begin) {
     Placeholder out;
     out.begin = begin;

@@ -1,5 +1,6 @@
-// The texts that a Frame shows over the scene. A text of the session's list may have placeholders
-// for numbers, such as {score} or {time_s:.1f}; the Frame contains the numbers.
+// The texts that a Frame shows over the scene. A text in the session's list may contain
+// placeholders for numbers, such as {score} or {time_s:.1f}; the numbers themselves are in the
+// Frame.
 #pragma once
 
 #include <span>
@@ -14,20 +15,22 @@ namespace dihaptic::frame {
 /// A placeholder for a number in a text.
 struct Placeholder {
     size_t begin = 0;   ///< index of the opening brace
-    size_t end = 0;     ///< index after the closing brace
-    std::string name;   ///< empty: malformed
-    int decimals = -1;  ///< -1: as many as needed, four digits in total
+    size_t end = 0;     ///< index of the first character after the closing brace
+    std::string name;   ///< name of the number; empty if malformed
+    int decimals = -1;  ///< number of decimals; -1: as many as needed, four digits in total
 };
 
-/// The placeholders of a text, in order. Doubled braces stand for braces, not for placeholders.
+/// Returns the placeholders of a text, in order. A doubled brace stands for a literal brace and
+/// does not start a placeholder.
 std::vector<Placeholder> placeholders(std::string_view text);
 
-/// The text with numbers in place of its placeholders, or a dash for NaN. Placeholders without
-/// numbers remain unchanged. The numbers used are removed from `numbers`.
+/// Returns the text with numbers in place of its placeholders, or a dash in place of NaN.
+/// Placeholders for which there is no number remain unchanged. The numbers that were used are
+/// removed from `numbers`.
 std::string filled(std::string_view text, std::span<const NumberFrame>& numbers);
 
-/// The displayed texts: the message, if any, then the lines below it. `messages` is
-/// the session's list; a text that is not in it appears as its index.
+/// Returns the displayed texts: the message, if any, then the lines below it. `messages` is the
+/// session's list of texts; a text that is not in the list is shown as its index.
 std::vector<std::string> shown_texts(const TaskFrame& task,
                                      const std::vector<std::string>& messages);
 

@@ -1,14 +1,16 @@
-// TaskFrame describes a task's actions in a tick: its display, its perturbations, and how the
-// trial ended. The task's director orders it, the Frame records it, and a replay orders it again.
+// TaskFrame describes what a task does in a tick: what it displays, how it perturbs the movement,
+// and how the trial ended. The task's director orders these actions, the Frame records them, and a
+// replay orders them again.
 //
 // Perturbations act on:
 //   visual map        from true to displayed poses of selected objects
-//   body properties   inertia, weight and friction, as factors on the scene's
-//   joint properties  springs, dampers and dry friction, as factors on the scene's
+//   body properties   inertia, weight and friction, as factors on the scene's values
+//   joint properties  springs, dampers and dry friction, as factors on the scene's values
 //   loads             forces and torques on handles and bodies
 //
-// In addition, objects are hidden, coloured and scaled (looks), or shown at earlier poses
-// (displaced); texts appear over the scene (message, lines), or a page replaces the scene.
+// In addition, objects can be hidden, coloured and scaled (looks) or shown at earlier poses
+// (displaced), texts can be shown over the scene (message, lines), and a page can replace the
+// scene.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +23,7 @@
 
 namespace dihaptic::frame {
 
-/// The objects that a visual map moves, as a sum of these.
+/// Flags for the objects that a visual map moves; several flags are added up.
 enum Moves : uint32_t { kMovesProxies = 1, kMovesObject = 2, kMovesTargets = 4 };
 
 /// The difference between displayed and true poses. A point p is shown at
@@ -271,25 +273,26 @@ struct NumberFrame {
     }
 };
 
-/// The kind of index in a list's items: `body`, `joint` or `object`. -1 means none.
+/// The kind of index in the items of a list (the member `body`, `joint` or `object`). The index -1
+/// means none.
 enum class Names { nothing, bodies, bodies_and_proxies, joints };
 
-/// The counts on which the lengths of lists depend.
+/// The counts that determine the lengths of the lists.
 struct Sizes {
-    size_t bodies = 0;  ///< bodies of the scene
+    size_t bodies = 0;  ///< number of bodies in the scene
     size_t fingers = scene::kMostFingers;
 };
 
-/// The properties of a TaskFrame's list besides its items.
+/// The properties of a list in a TaskFrame, apart from its items.
 struct TaskList {
     const char* name;
-    const char* meaning;  ///< one sentence
+    const char* meaning;  ///< description in one sentence
     Names names = Names::nothing;
     size_t fixed = 0;
     bool per_body = false, per_finger = false;
-    bool perturbs = false;  ///< whether its items are perturbations of the trial
+    bool perturbs = false;  ///< whether the items are perturbations of the trial
 
-    /// Largest length of the list in a tick.
+    /// Maximum length of the list in a tick.
     constexpr size_t most(const Sizes& sizes) const {
         return fixed + (per_body ? sizes.bodies : 0) + (per_finger ? sizes.fingers : 0);
     }
@@ -320,10 +323,10 @@ struct TaskList {
     }
 };
 
-/// Lists are declared once, in visit_lists(), from which their lengths, checks, and the event
-/// "perturbation" follow.
+/// The actions of a task in a tick. Each list is declared once, in visit_lists(), from which its
+/// length, its checks, and the event "perturbation" are derived.
 struct TaskFrame {
-    /// Limits of the numbers in a tick.
+    /// Maximum numbers of items in a tick.
     static constexpr size_t kMostTargets = 16;
     static constexpr size_t kMostProperties = 8;
     static constexpr size_t kMostLoads = 16;
@@ -358,11 +361,11 @@ struct TaskFrame {
     void reserve(const Sizes& sizes) {
         visit_lists(*this, [&](auto& list, const TaskList& is) { list.reserve(is.most(sizes)); });
     }
-    /// Resizes all lists to their largest length, with meaningless items.
+    /// Resizes all lists to their maximum lengths; the items have no meaning.
     void fill(const Sizes& sizes) {
         visit_lists(*this, [&](auto& list, const TaskList& is) { list.resize(is.most(sizes)); });
     }
-    /// Resets to no orders; keeps the memory.
+    /// Removes all orders, but keeps the memory.
     void clear() noexcept {
         attempt = 0;
         outcome = message = page = -1;
@@ -370,7 +373,7 @@ struct TaskFrame {
         share = 0;
         visit_lists(*this, [](auto& list, const TaskList&) { list.clear(); });
     }
-    /// Whether a perturbation acts.
+    /// Whether any perturbation acts.
     bool perturbed() const noexcept {
         bool out = false;
         visit_lists(*this, [&](const auto& list, const TaskList& is) {
@@ -469,8 +472,8 @@ struct TaskFrame {
     }
 };
 
-/// Adds an item to a list of a TaskFrame unless the list is full, so that the tick allocates
-/// nothing.
+/// Adds an item to a list of a TaskFrame unless the list is full, so that no memory is allocated
+/// during a tick.
 template <class T>
 void add(std::vector<T>& list, const T& item) noexcept {
     if (list.size() < list.capacity()) list.push_back(item);

@@ -1,4 +1,4 @@
-// Driver is the interface between the hand's mechanics and the source of its fingers' targets:
+// Driver is the interface between the mechanics of the hand and the source of the fingers' targets:
 // a script, a recorded movement or the mouse.
 #pragma once
 
@@ -21,11 +21,12 @@ class Driver {
   public:
     virtual ~Driver() = default;
 
-    /// The finger's target. Called in the tick, so it must neither allocate nor throw.
+    /// Returns the finger's target at time t. Called during a tick, so it must not allocate or
+    /// throw.
     FingerTarget target(int finger, double t) const noexcept { return do_target(finger, t); }
-    /// Time for which the driver moves the fingers [s].
+    /// Time during which the driver moves the fingers [s].
     virtual double duration() const = 0;
-    /// A section of the movement, with a name for summaries and trial tables.
+    /// A section of the movement, with a name that is used in summaries and trial tables.
     struct Phase {
         std::string name;
         double start = 0;  ///< [s]

@@ -2,12 +2,13 @@
 //
 //     f = (k + k_f |f_felt|) (x_target - x) + c (v_target - v)
 //
-// and, on a handle that turns, a torque, with r the rotation vector from the handle to the target,
+// and, on a handle that can turn, a torque. With r the rotation vector from the handle to the
+// target,
 //
 //     t = k_r r + c_r (w_target - w)
 //
-// where x is the position of the handle that the finger holds. |f_felt| follows the device's force
-// with the time constant kFeelTime, like muscle, so that stiffening adds no fast
+// Here x is the position of the handle that the finger holds. |f_felt| follows the device's force
+// with the time constant kFeelTime, as in a muscle, so that stiffening does not add a fast feedback
 // loop.
 #pragma once
 
@@ -23,15 +24,15 @@ class Finger {
   public:
     explicit Finger(const Impedance& impedance) : impedance_(impedance) {}
 
-    /// Force of the finger on the handle [N] over h seconds, while the device pushes with
-    /// f_device [N].
+    /// Returns the force that the finger exerts on the handle [N] over h seconds while the device
+    /// pushes with f_device_W [N].
     Vec3 pull(const FingerTarget& target, const Vec3& p_WH, const Vec3& v_WH,
               const Vec3& f_device_W, double h) noexcept {
         felt_ += (f_device_W.norm() - felt_) * h / kFeelTime;
         const double k = impedance_.stiffness + impedance_.stiffness_per_force * felt_;
         return k * (target.p_WT - p_WH) + impedance_.damping * (target.v_WT - v_WH);
     }
-    /// Torque of the finger on the handle [N*m].
+    /// Returns the torque that the finger exerts on the handle [N*m].
     Vec3 turn(const FingerTarget& target, const Quat& R_WH, const Vec3& w_WH) const noexcept {
         return impedance_.turn_stiffness * rotation_vector(target.R_WT * R_WH.conjugate()) +
                impedance_.turn_damping * (target.w_WT - w_WH);
@@ -44,16 +45,16 @@ class Finger {
     double felt_ = 0;  // [N]
 };
 
-/// Physiological tremor of one finger's target.
+/// Physiological tremor of the target of one finger.
 class Tremor {
   public:
     Tremor(const TremorSpec& spec, uint64_t seed, int finger);
-    /// Adds the tremor at time t.
+    /// Adds the tremor at time t to the target.
     void add(FingerTarget& target, double t) const noexcept;
 
   private:
     double amplitude_;
-    Vec3 angular_frequency_;  // by axis [rad/s]
+    Vec3 angular_frequency_;  // one per axis [rad/s]
     Vec3 phase_;              // [rad]
 };
 

@@ -1,5 +1,6 @@
-// MouseDriver moves a hand by mouse, for set-ups without devices. The goal changes in jumps, as
-// input events arrive; the hand follows it, critically damped with the time constant kFollow:
+// MouseDriver lets the mouse move a hand, for set-ups without devices. The goal jumps whenever an
+// input event arrives; the hand follows the goal with critical damping and the time constant
+// kFollow:
 //
 //     x(t) = g + (e + (v + w e) s) exp(-w s),    e = x(t0) - g,  s = t - t0,  w = 1 / kFollow
 //
@@ -14,30 +15,31 @@ namespace dihaptic::hand {
 
 /// Position, orientation and aperture of a hand.
 struct Posture {
-    Vec3 centre = Vec3::Zero();  ///< in world axes [m]
+    Vec3 centre = Vec3::Zero();  ///< centre of the hand, in world axes [m]
     double aperture = 0;         ///< twice each finger's distance from the centre [m]
-    double yaw = 0;              ///< about the vertical, applied first [rad]
-    double roll = 0;             ///< about the hand's own y axis, away from the person [rad]
+    double yaw = 0;              ///< rotation about the vertical, applied first [rad]
+    double roll = 0;             ///< rotation about the hand's own y axis, which points away from
+                                 ///< the person [rad]
 };
 
 class MouseDriver final : public Driver {
   public:
     static constexpr double kFollow = 0.04;  // [s]
-    /// Smallest aperture [m]; negative, because hands are soft: to squeeze hard, fingers aim
-    /// at points beyond each other.
+    /// Smallest aperture [m]. It is negative because hands are soft: to squeeze hard, the fingers
+    /// aim at points beyond each other.
     static constexpr double kTightest = -0.06;
 
-    /// Starts like a script of `spec`. Fingers with a centre or an aperture of their own keep
-    /// the difference from the hand's. Throws Error as finger_places() does.
+    /// Starts like a script of `spec`. Fingers that have their own centre or aperture keep the
+    /// difference from those of the hand. Throws Error like finger_places().
     MouseDriver(const HandSpec& spec, const std::vector<std::string>& fingers);
 
-    /// Moves the hand to `goal` from time `t` on. Call it from one thread only, not the servo's.
-    /// `t` is the time of the newest Frame that the caller knows; the targets that the servo has
+    /// Moves the hand to `goal` from time `t` on. To be called from a single thread other than the
+    /// servo's. `t` is the time of the newest Frame known to the caller; targets that the servo has
     /// computed since then hardly change.
     void follow(const Posture& goal, double t) noexcept;
     const Posture& goal() const { return goal_; }
 
-    /// The session continues until stopped, but needs a duration: that of the longest
+    /// The session continues until it is stopped, but a duration is required: that of the longest
     /// script.
     double duration() const override { return kLongestScript; }
     const std::vector<Phase>& phases() const override { return phases_; }
@@ -62,8 +64,8 @@ class MouseDriver final : public Driver {
     std::vector<Phase> phases_;
     Posture start_;
     Posture goal_;
-    Transit transit_;              // as set by follow()
-    mutable Latest<Transit> now_;  // read by the servo, in the tick
+    Transit transit_;              // the value set by follow()
+    mutable Latest<Transit> now_;  // read by the servo during ticks
 };
 
 }  // namespace dihaptic::hand

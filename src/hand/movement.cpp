@@ -22,7 +22,7 @@
 namespace dihaptic::hand {
 namespace {
 
-/// The number of items in a list: "3 frames".
+/// Describes the number of items in a list, e.g. "3 frames".
 std::string counted_of(const auto& list, const std::string& noun) {
     return counted(static_cast<int64_t>(list.size()), noun);
 }
@@ -45,12 +45,12 @@ constexpr const char* kHeaderRemedy =
     "The first line names the columns: time_ms, then thumb_x_mm, thumb_y_mm, thumb_z_mm, the same "
     "for each other finger, and occluded if the tracker reports it.";
 
-/// The information in a column's name.
+/// The information contained in a column name.
 struct Heading {
     enum class Kind { unknown, occluded, time, position };
     Kind kind = Kind::unknown;
-    std::string stem;       ///< without the unit: "thumb_x"
-    std::string unit_name;  ///< "" if the name has no unit
+    std::string stem;       ///< the name without the unit, e.g. "thumb_x"
+    std::string unit_name;  ///< "" if the name does not include a unit
     double unit = 1;
 };
 
@@ -78,7 +78,7 @@ Heading heading_of(const std::string& key) {
     return out;
 }
 
-/// Adds a column with a finger's position along an axis.
+/// Adds a column that contains a finger's position along one axis.
 void add_position(Columns& columns, const Heading& heading, int column, const Place& place,
                   Diagnostics& diagnostics) {
     const std::string name = heading.stem.substr(0, heading.stem.size() - 2);
@@ -145,7 +145,7 @@ Columns read_header(const Place& place, std::vector<std::string> header, Diagnos
                           key.empty() ? "a column has no name" : "is not a column of a movement",
                           kHeaderRemedy);
     }
-    // a repeated column was probably meant as the missing one: only one of the two is reported
+    // a repeated column was probably meant to be the missing one: report only one of the two
     if (!diagnostics.has_errors()) check_complete(columns, place, diagnostics);
     return columns;
 }
@@ -154,7 +154,8 @@ Vec3 to_world(const Vec3& p, RecordingAxes axes) {
     return axes == RecordingAxes::y_up ? Vec3(p.x(), -p.z(), p.y()) : p;
 }
 
-/// Reads a line's cells into a frame; reports an error and returns false if they are not valid.
+/// Reads the cells of a line into a frame. If they are not valid, reports an error and returns
+/// false.
 bool read_frame(const Columns& columns, const std::vector<std::string>& cells, RecordingAxes axes,
                 GivenTable& table, Movement::Frame& frame, Diagnostics& problems) {
     bool readable = true;
@@ -193,7 +194,7 @@ bool read_frame(const Columns& columns, const std::vector<std::string>& cells, R
     return readable;
 }
 
-/// Names the movement's fingers, and their columns by world axis.
+/// Sets the names of the movement's fingers, and of their columns by world axis.
 void name_columns(Movement& movement, const Columns& columns, RecordingAxes axes) {
     movement.time_column = columns.time < 0 ? "time_s" : columns.key(columns.time);
     for (const Columns::Finger& finger : columns.fingers) {
@@ -205,8 +206,8 @@ void name_columns(Movement& movement, const Columns& columns, RecordingAxes axes
     }
 }
 
-/// Whether a line has the right number of cells; reports an error if not. Trackers' programs may
-/// add empty cells at its end.
+/// Checks whether a line has the right number of cells, and reports an error if not. Trackers'
+/// programs may add empty cells at the end of a line.
 bool check_count(const Columns& columns, const std::vector<std::string>& cells,
                  const GivenTable& table, Diagnostics& problems) {
     const size_t wanted = columns.keys.size();
@@ -222,12 +223,12 @@ bool check_count(const Columns& columns, const std::vector<std::string>& cells,
     return false;
 }
 
-/// The lines below the header.
+/// Reads the lines below the header.
 void read_frames(const Columns& columns, GivenTable& table, RecordingAxes axes, Movement& movement,
                  Diagnostics& problems) {
     while (problems.problems().size() < kMostErrors) {
         const auto cells = table.next();
-        // another part of the file may follow, such as the data of force plates
+        // another section of the file may follow, such as force-plate data
         if (!cells || (columns.exported && table.after_gap() && !movement.frames.empty())) return;
         if (!check_count(columns, *cells, table, problems)) continue;
         Movement::Frame frame;
@@ -237,8 +238,8 @@ void read_frames(const Columns& columns, GivenTable& table, RecordingAxes axes, 
     }
 }
 
-/// Start of the movement in a text: in an export of Nexus, the data of force plates may come before
-/// it.
+/// Returns the position in a text where the movement starts: in a Nexus export, force-plate data
+/// may precede it.
 size_t begin_of(std::string_view text) {
     for (const std::string_view line : {"\nTrajectories\n", "\nTrajectories\r", "\nTrajectories,",
                                         "\nTrajectories;", "\nTrajectories\t"}) {
@@ -247,7 +248,7 @@ size_t begin_of(std::string_view text) {
     return 0;
 }
 
-/// Leaves out an export's markers that are not fingers, if the fingers are known, with a
+/// If the fingers are known, removes those markers of an export that are not fingers, with a
 /// warning.
 void choose_markers(Columns& columns, const std::vector<std::string>& fingers, const Place& place,
                     Diagnostics& problems) {

@@ -14,8 +14,8 @@ std::string unit_of(const std::string& column) {
     return column.substr(column.rfind('_') + 1);
 }
 
-/// Largest extent of a finger's movement along any axis, without the few extreme, possibly wild,
-/// positions.
+/// Largest extent of a finger's movement along any axis, ignoring the few most extreme positions,
+/// which may be wild.
 double typical_extent(const Movement& movement, size_t finger) {
     double extent = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -31,7 +31,8 @@ double typical_extent(const Movement& movement, size_t finger) {
     return extent;
 }
 
-/// Reports an error and returns false if the movement's rate is not that of any tracker.
+/// Checks the movement's frame rate. If no tracker has such a rate, reports an error and returns
+/// false.
 bool check_rate(const Movement& movement, Diagnostics& problems) {
     const std::string& key = movement.time_column;
     const std::string unit = unit_of(key);
@@ -56,7 +57,7 @@ bool check_rate(const Movement& movement, Diagnostics& problems) {
     return true;
 }
 
-/// Checks that each line's time is later than that of the line before, but not much later.
+/// Checks that the time in each line is later than in the previous line, but not by too much.
 void check_steps(const Movement& movement, Diagnostics& problems) {
     const auto& frames = movement.frames;
     const std::string& key = movement.time_column;
@@ -83,7 +84,7 @@ void check_steps(const Movement& movement, Diagnostics& problems) {
                             shown(a), a.line, shown(b), kLongestGap),
                 "Correct the wrong time, or delete its line: missing frames are "
                 "bridged.");
-            return;  // the next lines would only repeat this error
+            return;  // the lines that follow would only repeat this error
         }
     }
 }

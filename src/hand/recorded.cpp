@@ -8,7 +8,7 @@
 namespace dihaptic::hand {
 namespace {
 
-/// The grasp phase reaches this far beyond the quiet stretch at either end, so that it includes
+/// The grasp phase extends by this much beyond both ends of the quiet stretch, so that it includes
 /// closing and opening.
 constexpr double kAround = 0.4;  // [s]
 

@@ -1,4 +1,4 @@
-// A hand that follows a recorded, repaired movement.
+// A driver that makes the hand follow a recorded and repaired movement.
 #pragma once
 
 #include "hand/driver.h"
@@ -8,8 +8,9 @@ namespace dihaptic::hand {
 
 class RecordedDriver final : public Driver {
   public:
-    /// `shift` is added to every position [m]; `fingers` are the scene's, in order. The phases are
-    /// reach, grasp and return. Throws Error when the movement lacks one of the fingers.
+    /// Adds `shift` to every position [m]. `fingers` are the fingers of the scene, in order. The
+    /// phases are reach, grasp and return. Throws Error if one of the fingers is missing from the
+    /// movement.
     RecordedDriver(Path path, const GraspSite& site, const Vec3& shift,
                    const std::vector<std::string>& fingers);
 
@@ -21,7 +22,7 @@ class RecordedDriver final : public Driver {
 
     Path path_;
     Vec3 shift_;
-    std::vector<size_t> column_;  // column of the path, by finger
+    std::vector<size_t> column_;  // for each finger, its column in the path
     std::vector<Phase> phases_;
 };
 

@@ -14,12 +14,12 @@ namespace dihaptic::hand {
 namespace {
 
 constexpr double kGap =
-    1.75;  // in frame times; if two frames are further apart, frames are missing
-constexpr size_t kFrozenRun = 5;  // equal positions in a row, then a step, mean a frozen marker
+    1.75;  // in frame times; if the time between two frames is longer, frames are missing
+constexpr size_t kFrozenRun = 5;  // this many equal positions, then a step, mean a frozen marker
 constexpr double kFrozenStep = 0.003;  // [m]
-constexpr size_t kWildRun = 5;         // longest run of wild positions [frames]
+constexpr size_t kWildRun = 5;         // maximum length of a run of wild positions [frames]
 
-/// Checks one finger's positions frame by frame.
+/// Checks the positions of one finger frame by frame.
 class FingerRepair {
   public:
     FingerRepair(const Movement& movement, int finger, double frame)
@@ -30,7 +30,7 @@ class FingerRepair {
 
     void run(std::vector<Fault>& faults) {
         drop_missing(faults);
-        // wild positions first: a step to one does not mean that the marker was frozen before
+        // first drop wild positions, since a step to one does not mean that the marker was frozen
         drop_wild(faults);
         drop_frozen(faults);
         widen_jumps(faults);
@@ -50,7 +50,7 @@ class FingerRepair {
         while (i < valid_.size() && !valid_[i]);
         return i;
     }
-    /// The last valid frame before i, or i itself if there is none.
+    /// The last valid frame before i, or i itself if there is no such frame.
     size_t last_valid(size_t i) const {
         for (size_t j = i; j > 0; --j) {
             if (valid_[j - 1]) return j - 1;
@@ -90,9 +90,9 @@ class FingerRepair {
         }
     }
 
-    /// Many programs write 0, 0, 0 for a marker that was lost. But a finger may really be at that
-    /// position, for instance if positions are relative to the first position. The marker counts as
-    /// lost if the adjacent frames could not be reached from it.
+    /// Drops zeros that stand for a lost marker. Many programs write 0, 0, 0 in this case, but a
+    /// finger may actually be there, e.g. if positions are relative to the first one. The marker
+    /// counts as lost if the adjacent frames could not be reached from 0, 0, 0.
     void drop_zeros() {
         const auto is_zero = [&](size_t i) { return valid_[i] && at(i).isZero(0); };
         for (size_t i = next_valid_from(0); i < valid_.size(); i = next_valid(i)) {
@@ -109,8 +109,8 @@ class FingerRepair {
         }
     }
 
-    /// Drops repetitions of a lost marker's last position; the tracker may or may not report the
-    /// loss.
+    /// Drops repetitions of the last position of a lost marker. The tracker may or may not report
+    /// the loss.
     void drop_frozen(std::vector<Fault>& faults) {
         for (size_t i = 0; i + 1 < valid_.size();) {
             size_t end = i + 1;
@@ -129,9 +129,9 @@ class FingerRepair {
         }
     }
 
-    /// Drops positions that no hand could have reached and from which the next frames return. At
-    /// either end of the recording only one side can be compared: a few frames count as wild there
-    /// if all others continue elsewhere.
+    /// Drops positions that no hand could have reached and from which the following frames return.
+    /// At the start and end of the recording, only one side can be compared: a few frames there
+    /// count as wild if all other frames continue elsewhere.
     void drop_wild(std::vector<Fault>& faults) {
         const size_t n = valid_.size();
         for (size_t i = next_valid(next_valid_from(0)); i < n; i = next_valid(i)) {
@@ -149,12 +149,13 @@ class FingerRepair {
             }
         }
     }
-    /// The first frame after i that a hand from `before` could reach, or the end if there is none.
+    /// Returns the first frame after i that a hand at frame `before` could reach, or the end if
+    /// there is none.
     size_t taken_back(size_t before, size_t i) const {
         size_t last = i;
         size_t back = next_valid(i);
         for (size_t n = 0; n < kWildRun && back < valid_.size(); ++n) {
-            // it must also jump back: a movement that continues from the new position is a jump
+            // must also jump back: a movement that continues from the new position is a jump
             if (!plausible(last, back) && plausible(before, back)) return back;
             last = back;
             back = next_valid(back);
@@ -169,7 +170,7 @@ class FingerRepair {
                                               valid_.begin() + static_cast<std::ptrdiff_t>(end),
                                               char{1}));
     }
-    /// Number of frames from i on without an implausible step between them, counted only as far as
+    /// Number of frames from i on with no implausible step between them, counted only as far as
     /// necessary.
     size_t together(size_t i) const {
         size_t count = 1;
@@ -181,7 +182,7 @@ class FingerRepair {
         }
         return count;
     }
-    /// Drops the wild frames [first, end); `beside` is a good frame next to them.
+    /// Drops the wild frames [first, end); `beside` is a good frame next to the range.
     void drop(std::vector<Fault>& faults, size_t first, size_t end, size_t beside) {
         const bool thousandth = at(first).norm() < 2e-3 * at(beside).norm() &&
                                 at(first).norm() > 0.5e-3 * at(beside).norm();
@@ -189,7 +190,7 @@ class FingerRepair {
         report(faults, FaultKind::wild_position, first, end, thousandth);
     }
 
-    /// Gives a step from one position to another more time, by dropping frames on both sides of it.
+    /// Gives a jump between two positions more time, by dropping frames on both sides of it.
     void widen_jumps(std::vector<Fault>& faults) {
         for (size_t i = next_valid(0); i < valid_.size(); i = next_valid(i)) {
             size_t before = last_valid(i);
@@ -306,7 +307,7 @@ Path repair(const Movement& movement) {
             throw Error({movement.file, 0}, movement.fingers[f],
                         "fewer than four frames are usable", "Record this movement again.");
         }
-        // samples between frames that are too far apart, and at the ends, are bridged
+        // bridge the samples at the ends, and those between frames that are too far apart
         const auto mark = [&](double from, double to) {
             const auto first = static_cast<size_t>(std::max(0.0, std::ceil(from * Path::kRate)));
             for (size_t s = first; s < samples && static_cast<double>(s) / Path::kRate < to; ++s)

@@ -41,7 +41,7 @@ ScriptDriver::ScriptDriver(const HandSpec& spec, const std::vector<std::string>&
     }
 }
 
-/// Appends a step, which starts at the end of the last segment.
+/// Appends a step that starts at the end of the last segment.
 void ScriptDriver::add(const ScriptStep& step, const std::vector<std::string>& fingers) {
     const Segment& last = segments_.back();
     Segment segment;
@@ -89,7 +89,7 @@ FingerTarget ScriptDriver::do_target(int finger, double t) const noexcept {
     const Motion& motion = segment->motions[static_cast<size_t>(finger)];
     const double T = segment->duration;
     const double s = (t - segment->start) / T;
-    // a motion that does not start or end at rest has this speed only inside the segment
+    // if a motion does not start or end at rest, it has this speed only inside the segment
     const bool inside = segment->steady ? s > 0 && s < 1 : s >= 0 && s < 1;
     const model::MinimumJerk step =
         segment->steady ? model::MinimumJerk{std::clamp(s, 0.0, 1.0), 1.0} : model::minimum_jerk(s);

@@ -1,4 +1,4 @@
-// Describes the simulated hand, as given in scene and experiment files.
+// Describes the simulated hand, as specified in scene and experiment files.
 #pragma once
 
 #include <string>
@@ -8,22 +8,23 @@
 
 namespace dihaptic::hand {
 
-/// Limits of a script; beyond them a unit is wrong.
+/// Limits of a script. If they are exceeded, a unit is wrong.
 constexpr double kLongestScript = 3600;  // [s]
 constexpr double kFarthest = 100;        // [m]
 constexpr double kFastest = 20;          // [m/s]
 constexpr double kMostTurn = 100;        // [rad]
 
-/// Mechanics of one finger: a mass that a spring and a damper pull to its equilibrium point. The
-/// spring stiffens with the force that the finger feels, like muscle.
+/// Mechanics of one finger: a mass that is pulled to its equilibrium point by a spring and a
+/// damper. The spring stiffens with the force that the finger feels, like muscle.
 struct Impedance {
-    double mass = 0;                 ///< added to the mass of the device [kg]
+    double mass = 0;                 ///< in addition to the mass of the device [kg]
     double stiffness = 300;          ///< [N/m]
     double damping = 3;              ///< [N*s/m]
-    double stiffness_per_force = 0;  ///< rise of the stiffness per newton of force felt [1/m]
-    double turn_stiffness = 1;   ///< rotational, on a handle; of the order of a wrist's [N*m/rad]
+    double stiffness_per_force = 0;  ///< relative increase in stiffness per newton of felt force
+                                     ///< [1/m]
+    double turn_stiffness = 1;   ///< rotational, on a handle; similar to that of a wrist [N*m/rad]
     double turn_damping = 0.02;  ///< rotational; critical for the inertia of a stylus [N*m*s/rad]
-    Place place{};               ///< position in the file; likewise below
+    Place place{};               ///< position in the file, as in the structs below
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -51,10 +52,10 @@ struct Impedance {
     }
 };
 
-/// Physiological tremor of the equilibrium point: one sine per axis. All have the same amplitude;
-/// the frequency, drawn from the band, and the phase are drawn once for each.
+/// Physiological tremor of the equilibrium point: one sine per axis. The amplitude is the same for
+/// all axes; the frequency (from the band) and the phase are drawn at random for each axis.
 struct TremorSpec {
-    double amplitude = 0;  ///< per axis [m]
+    double amplitude = 0;  ///< along each axis [m]
     double low = 8;        ///< band [Hz]
     double high = 10;
 
@@ -75,15 +76,16 @@ struct TremorSpec {
     }
 };
 
-/// Position of a finger in the hand: its side of the hand's centre, and its offset.
+/// Position of a finger in the hand: which side of the hand's centre it is on, and its offset.
 struct FingerPlace {
     std::string name;
-    Vec3 side = Vec3::Zero();    ///< unit direction from the centre; zero: the finger is the centre
+    Vec3 side = Vec3::Zero();    ///< unit direction from the centre; zero if the finger is the
+                                 ///< centre
     Vec3 offset = Vec3::Zero();  ///< added to the position, in world axes; turns with the hand [m]
     Place place{};
     std::optional<Vec3>
-        centre{};  ///< initial centre of another hand, to which the finger belongs [m]
-    std::optional<double> aperture{};  ///< initial aperture of that hand [m]
+        centre{};  ///< initial centre of another hand to which the finger belongs [m]
+    std::optional<double> aperture{};  ///< initial aperture of the other hand [m]
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -106,18 +108,20 @@ struct FingerPlace {
     }
 };
 
-/// One step of a script: fingers move, by minimum jerk, from the end of the last step.
+/// One step of a script: fingers move along minimum-jerk trajectories from where the last step
+/// ended.
 struct ScriptStep {
     std::string name;
-    double duration = 0;  ///< [s]
-    std::optional<double>
-        aperture;              ///< at the end: twice each finger's distance from the centre [m]
-    Vec3 move = Vec3::Zero();  ///< of the centre [m]
-    bool steady = false;       ///< constant speed instead of minimum jerk
-    Vec3 turn = Vec3::Zero();  ///< of the hand about its centre, with its handles:
-                               ///< world axis times angle [rad]
-    Vec3 end_velocity = Vec3::Zero();    ///< of the centre; the next step starts with it [m/s]
-    std::vector<std::string> fingers{};  ///< only these move; empty: all
+    double duration = 0;             ///< [s]
+    std::optional<double> aperture;  ///< at the end of the step: twice each finger's distance from
+                                     ///< the centre [m]
+    Vec3 move = Vec3::Zero();        ///< displacement of the centre [m]
+    bool steady = false;             ///< constant speed instead of minimum jerk
+    Vec3 turn = Vec3::Zero();  ///< rotation of the hand about its centre, with its handles: world
+                               ///< axis times angle [rad]
+    Vec3 end_velocity = Vec3::Zero();    ///< velocity of the centre; the next step starts with it
+                                         ///< [m/s]
+    std::vector<std::string> fingers{};  ///< fingers that move; all of them if empty
     Place place{};
 
     template <class Visitor>
@@ -155,9 +159,9 @@ struct ScriptStep {
 struct HandSpec {
     Impedance impedance;
     TremorSpec tremor;
-    Vec3 centre = Vec3::Zero();        ///< at the start [m]
-    double aperture = 0.1;             ///< at the start [m]
-    std::vector<FingerPlace> fingers;  ///< empty: thumb at -x and index at +x
+    Vec3 centre = Vec3::Zero();        ///< centre of the hand at the start [m]
+    double aperture = 0.1;             ///< aperture of the hand at the start [m]
+    std::vector<FingerPlace> fingers;  ///< if empty: thumb at -x and index finger at +x
     std::vector<ScriptStep> script;
     Place place{};
 

@@ -17,7 +17,7 @@ std::string cell(const Cells& cells, size_t i) {
     return i < cells.size() ? cells[i] : "";
 }
 
-/// "hand:thumb" is the marker thumb of the asset hand.
+/// Extracts the marker name: "hand:thumb" is the marker "thumb" of the asset "hand".
 std::string marker_of(const std::string& name) {
     return name.substr(name.rfind(':') + 1);
 }
@@ -60,7 +60,7 @@ bool has(const Columns& columns, const std::string& name) {
                        [&](const Columns::Finger& finger) { return finger.name == name; });
 }
 
-/// Markers by their names, each of which may occur only once.
+/// Adds markers by name; each name may occur only once.
 void add_once(Columns& columns, const std::string& name, size_t x, double unit,
               const GivenTable& table) {
     if (has(columns, name))
@@ -68,8 +68,8 @@ void add_once(Columns& columns, const std::string& name, size_t x, double unit,
     add_marker(columns, name, x, unit);
 }
 
-/// The line with this label in the header of a Motive file. Older versions omit the label; the line
-/// is then found by its distance from the header's end.
+/// Returns the line with this label in the header of a Motive file. Older versions omit the label;
+/// the line is then found by its distance from the end of the header.
 Cells line_of(const std::vector<Cells>& head, const char* label, size_t from_end) {
     for (const Cells& cells : head) {
         if (cell(cells, 1) == label) return cells;
@@ -77,9 +77,10 @@ Cells line_of(const std::vector<Cells>& head, const char* label, size_t from_end
     return head.size() >= from_end ? head[head.size() - from_end] : Cells();
 }
 
-/// Motive: settings in one line; then lines with each column's type, name, identifier and property;
-/// then Frame, Time (Seconds) and the axes. Besides markers there are rigid bodies, and the
-/// expected positions of their markers; if a measured marker has the same name, it is used.
+/// Reads a Motive header: settings in one line; then lines with each column's type, name,
+/// identifier and property; then Frame, Time (Seconds) and the axes. Besides markers, there are
+/// rigid bodies and the expected positions of their markers. If an expected marker has the same
+/// name as a measured one, the measured marker is used.
 Columns read_motive(const Cells& settings, GivenTable& table) {
     const auto key = std::find(settings.begin(), settings.end(), "Length Units");
     const double unit = unit_of(key < settings.end() - 1 ? key[1] : "", table);
@@ -103,8 +104,8 @@ Columns read_motive(const Cells& settings, GivenTable& table) {
     return columns;
 }
 
-/// Nexus: the word Trajectories; frames per second; a marker's name above its x; Frame, Sub Frame
-/// and the axes; units.
+/// Reads a Nexus header: the word Trajectories; frames per second; each marker's name above its x;
+/// Frame, Sub Frame and the axes; units.
 Columns read_nexus(GivenTable& table) {
     Columns columns;
     columns.time = 0;
@@ -121,8 +122,8 @@ Columns read_nexus(GivenTable& table) {
     return columns;
 }
 
-/// Reads the lines with Qualisys' column names or marker types. Returns whether a frame and a
-/// time precede the markers.
+/// Reads the lines that contain Qualisys' column names or marker types. Returns whether a frame
+/// number and a time precede the markers.
 bool take_column_names(GivenTable& table) {
     bool named = false;
     for (auto cells = table.peek(); cells; cells = table.peek()) {
@@ -135,9 +136,9 @@ bool take_column_names(GivenTable& table) {
     return named;
 }
 
-/// Qualisys: a line for each setting, the last of which is MARKER_NAMES, or TRAJECTORY_TYPES after
-/// it; optionally a line that names the columns; then x, y, z of each marker in mm, optionally
-/// after a frame number and a time.
+/// Reads a Qualisys header: one line per setting, the last of which is MARKER_NAMES, optionally
+/// followed by TRAJECTORY_TYPES; optionally a line that names the columns. The data has x, y, z of
+/// each marker in mm, optionally after a frame number and a time.
 Columns read_qualisys(const Cells& first, GivenTable& table) {
     Columns columns;
     double period = 0;
@@ -160,7 +161,7 @@ Columns read_qualisys(const Cells& first, GivenTable& table) {
     return columns;
 }
 
-/// Names for messages, as in a file in our own format.
+/// Sets the names for messages, in the style of our own file format.
 void name_keys(Columns& columns) {
     for (const Columns::Finger& finger : columns.fingers) {
         for (size_t k = 0; k < 3; ++k) {

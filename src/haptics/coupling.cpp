@@ -5,7 +5,7 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// The part of the spring's force within the cone of the step's contact.
+/// Returns the part of the spring's force that lies in the friction cone of the step's contact.
 Vec3 in_cone(const Vec3& spring, const ProxyTouch& touch) noexcept {
     const double normal = std::max(0.0, spring.dot(touch.n_W));
     Vec3 tangential = spring - spring.dot(touch.n_W) * touch.n_W;
@@ -49,7 +49,7 @@ void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const frame::H
     const double k = settings_.stiffness;
     const double c = damping_;
     const double folded_mass = mass_ + h * c + h * h * k;
-    // scales the whole equation: the velocity is unchanged, and contacts have less mass to stop
+    // scales the whole equation: the velocity stays the same, and contacts stop less mass
     world.set_mass(proxy, onset_.share() * folded_mass);
     world.set_velocity(
         proxy, (mass_ * state.v_WB + h * k * (handle.p_WH - state.X_WB.p) + h * c * handle.v_WH) /
@@ -62,7 +62,7 @@ void VelocityImpulse::before_step(World& world, BodyIndex proxy, const frame::Ha
     begin_step(handle, h);
     const double k = settings_.stiffness;
     const double c = damping_;
-    // with less mass, a velocity that leads to the handle could not transmit the spring's force
+    // if the mass were smaller, a velocity towards the handle could not transmit the spring's force
     const double mass = std::max(mass_, h * c + h * h * k);
     const Vec3 stretch = handle.p_WH - state.X_WB.p;
     const Vec3 change = stretch / h - state.v_WB;
@@ -70,7 +70,7 @@ void VelocityImpulse::before_step(World& world, BodyIndex proxy, const frame::Ha
     const double size = change.norm();
     double given = std::min(size, most);
     if (was_touching && size > 0) {
-        // the force at the end of the step if the proxy kept its velocity; a pull lifts the proxy
+        // the force at the end of the step if the proxy kept its velocity; pulling lifts the proxy
         // off a surface
         const Vec3 spring = k * (stretch - h * state.v_WB) + c * (handle.v_WH - state.v_WB);
         given = std::clamp(h / mass * spring.dot(change) / size, -most, given);
@@ -84,7 +84,7 @@ void DualSpring::before_step(World& world, BodyIndex proxy, const frame::Handle&
     const dynamics::BodyState& state = world.state(proxy);
     double k = settings_.stiffness;
     if (!was_touching) {
-        // limited so that the proxy takes at least one or two steps to reach the handle; beyond
+        // limit k so that the proxy takes at least one or two steps to reach the handle; beyond
         // that, the explicit spring diverges
         k = std::max(k,
                      std::min(settings_.free_stiffening * k, 0.5 * settings_.body_mass / (h * h)));

@@ -6,19 +6,19 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// Work of a torque that stays constant while a body turns from A to B [J].
+/// Work of a constant torque while a body turns from A to B [J].
 double work(const Vec3& torque_W, const Quat& R_WA, const Quat& R_WB) noexcept {
     if (torque_W == Vec3::Zero()) return 0;
     return torque_W.dot(rotation_vector(R_WB * R_WA.conjugate()));
 }
 
-/// Work of a force and a torque that stay constant while a body moves from A to B [J].
+/// Work of a constant force and torque while a body moves from A to B [J].
 double work(const Wrench& on_it_W, const Pose& X_WA, const Pose& X_WB) noexcept {
     return on_it_W.force.dot(X_WB.p - X_WA.p) + work(on_it_W.torque, X_WA.R, X_WB.R);
 }
 
-/// Force against a velocity, or torque against an angular velocity, that absorbs an excess of
-/// energy within h, with a damper no stronger than `strongest`.
+/// Force against a velocity (or torque against an angular velocity) that absorbs excess energy
+/// within h, like a damper no stronger than `strongest`.
 Vec3 braking(const Vec3& velocity, double excess, double h, double strongest) noexcept {
     const double speed2 = velocity.squaredNorm();
     if (!(speed2 > 0)) return Vec3::Zero();
@@ -28,7 +28,7 @@ Vec3 braking(const Vec3& velocity, double excess, double h, double strongest) no
 }  // namespace
 
 /// Ends a window at the first step of the world after kActiveWindow, since energy is checked only
-/// in steps.
+/// at steps.
 void EnergyGuard::count_windows(bool stepped, double h) noexcept {
     window_ += h;
     if (!stepped || window_ < kActiveWindow) return;
@@ -47,7 +47,7 @@ Wrench EnergyGuard::watch(const frame::Handle& handle, const Pose& X_WP, const W
     const double to_hand = (asked_.force + damper_.force).dot(handle.p_WH - X_WH_.p) +
                            work(asked_.torque + damper_.torque, X_WH_.R, handle.R_WH);
     const bool slack = asked_W.is_zero();
-    // an inactive coupling gets no energy, and while stretched it keeps the energy that it did not
+    // an inactive coupling gets no energy; while stretched, it keeps the energy that it did not
     // release
     if (slack) stored = std::clamp(stored_ - to_hand, 0.0, stored);
     if (stepped) {
@@ -61,7 +61,7 @@ Wrench EnergyGuard::watch(const frame::Handle& handle, const Pose& X_WP, const W
     if (started_) {
         const bool was_slack = asked_.is_zero();
         double at_end = work(asked_W, X_WP_, X_WP);
-        // a proxy that makes contact moved without work until then, unless it was hit
+        // until a proxy makes contact, it moves without work, unless it was hit
         if (was_slack) at_end = std::max(0.0, at_end);
         const double held = was_slack || slack ? at_end : work(asked_, X_WP_, X_WP);
         const double rest = stored - stored_ + to_hand;
@@ -75,7 +75,7 @@ Wrench EnergyGuard::watch(const frame::Handle& handle, const Pose& X_WP, const W
     asked_ = asked_W;
     stored_ = stored;
     damper_ = {};
-    if (mode_ == frame::EnergyGuardMode::off) generated_ = {};  // feeding() continues to count
+    if (mode_ == frame::EnergyGuardMode::off) generated_ = {};  // feeding() keeps counting
     const double excess = generated() - budget_;
     if (excess <= 0) return damper_;
     status |= kEnergyGenerated;

@@ -69,7 +69,7 @@ void Finger::before_step(World& world, const frame::Handle& handle, double step)
 }
 
 void Finger::after_step(World& world, const frame::Handle& handle) noexcept {
-    // a point with friction "apart" feels bodies at their present poses, in pull()
+    // a point with friction "apart" feels bodies at their current poses, in pull()
     if (!std::holds_alternative<PointProxy>(coupling_)) feel(world.contacts());
     if (auto* point = std::get_if<SolvedPoint>(&coupling_)) point->after_step(world, handle);
 }

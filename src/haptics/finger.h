@@ -1,5 +1,5 @@
-// Finger is one finger in the world: its proxy, and the coupling between the proxy and the handle.
-// Every force passes a ForceGuard on its way to the device.
+// Finger represents one finger in the world: its proxy, and the coupling between the proxy and the
+// handle. Every force passes through a ForceGuard before it reaches the device.
 #pragma once
 
 #include <span>
@@ -14,46 +14,47 @@ namespace dihaptic::haptics {
 
 class Finger {
   public:
-    /// The proxy of `finger` is body `proxy` of the world. `max_force`: largest force that the hand
-    /// may feel [N].
+    /// The proxy of `finger` is the body `proxy` of the world; `max_force` is the largest force
+    /// that the hand may feel [N].
     Finger(const scene::Finger& finger, BodyIndex proxy, const frame::CouplingSettings& coupling,
            double max_force);
-    /// A finger whose proxy is a point.
+    /// Creates a finger whose proxy is a point.
     Finger(PointProxy point, BodyIndex proxy);
     Finger(SolvedPoint point, BodyIndex proxy);
 
-    /// Lets the proxy turn with the handle; its body in the world must be able to turn.
+    /// Lets the proxy turn with the handle. The body of the proxy must be able to turn.
     void turn_with_handle(const RotationalCoupling& coupling) { turn_ = coupling; }
 
     BodyIndex proxy() const { return proxy_; }
     const ProxyTouch& touch() const { return touch_; }
-    /// Contacts outside the world: those of a point proxy whose friction is "apart", at the
-    /// last force().
+    /// Contacts that are not part of the world: those of a point proxy whose friction is "apart",
+    /// at the last call of force().
     std::span<const contact::Contact> contacts() const noexcept;
 
-    /// Sets the coupling from the coming tick on. Its kind applies to rigid proxies only: a point
-    /// has its own coupling.
+    /// Sets the coupling from the coming tick on. The kind of coupling applies only to rigid
+    /// proxies: a point has its own coupling.
     void retune(const frame::CouplingSettings& coupling) noexcept;
 
-    /// Puts the proxy at the handle: before the first tick, and at each restart.
+    /// Moves the proxy to the handle. To be called before the first tick, and at each restart.
     void place(World& world, const frame::Handle& handle) noexcept;
 
-    /// Turns a proxy that does not follow its handle's orientation along with the workspaces: by
-    /// R_WT from its initial orientation, continuing to turn at w_WT [rad/s].
+    /// Turns a proxy that does not follow its handle's orientation along with the workspaces:
+    /// rotates it by R_WT from its initial orientation and lets it continue to turn at w_WT
+    /// [rad/s].
     void carry(World& world, const Quat& R_WT, const Vec3& w_WT) const noexcept;
 
-    /// First call in every tick; `step` is the world's time step [s].
+    /// To be called first in every tick. `step` is the time step of the world [s].
     void begin_tick(const World& world, const frame::Handle& handle, double step) noexcept;
-    /// Called before and after the step, in ticks in which the world steps.
+    /// To be called before and after the step, in ticks in which the world steps.
     void before_step(World& world, const frame::Handle& handle, double step) noexcept;
     void after_step(World& world, const frame::Handle& handle) noexcept;
 
-    /// Last call in every tick: the force that the coupling requests for the present handle
-    /// [N]. `tick`: its duration [s].
+    /// To be called last in every tick. Returns the force that the coupling requests for the
+    /// current state of the handle [N]. `tick` is the duration of the tick [s].
     Vec3 force(World& world, const frame::Handle& handle, double tick) noexcept;
-    /// Torque that goes with the last force() [N*m].
+    /// Torque that belongs to the last force() [N*m].
     const Vec3& torque() const noexcept { return torque_; }
-    /// Energy in the coupling's springs at the last force() [J].
+    /// Energy stored in the coupling's springs at the last force() [J].
     double stored() const noexcept { return stored_; }
 
   private:
@@ -64,14 +65,14 @@ class Finger {
     BodyIndex proxy_;
     std::variant<ImplicitCoupling, DualSpring, VelocityImpulse, PointProxy, SolvedPoint> coupling_;
     frame::CouplingKind kind_ = frame::CouplingKind::implicit;
-    double mass_ = 0;       // of the proxy if it is a body [kg]
-    double max_force_ = 0;  // that the hand may feel from a rigid proxy [N]
+    double mass_ = 0;       // mass of the proxy if it is a body [kg]
+    double max_force_ = 0;  // largest force that the hand may feel from a rigid proxy [N]
     std::optional<RotationalCoupling> turn_;
-    Quat R_TP_ = Quat::Identity();  // initial orientation
+    Quat R_TP_ = Quat::Identity();  // initial orientation of the proxy
     ProxyTouch touch_;
     Vec3 torque_ = Vec3::Zero();
     double stored_ = 0;
-    double step_ = 0;  // of the world [s]
+    double step_ = 0;  // time step of the world [s]
 };
 
 }  // namespace dihaptic::haptics

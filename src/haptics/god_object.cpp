@@ -6,15 +6,16 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// A point this near to a surface is on it; larger than solvers' errors [m].
+/// A point is on a surface if it is at least this near to it; larger than the errors of solvers
+/// [m].
 constexpr double kTouching = 1e-6;
-/// After a step, a point is not moved out of surfaces by more than this many times its depth in
-/// them: it would slip out between two bodies that pinch it.
+/// Maximum distance, relative to the point's depth in surfaces, by which a step may move the point
+/// out of them. A point moved farther would slip out between two bodies that pinch it.
 constexpr double kMostSlip = 10;
-/// A path shorter than this is ignored [m].
+/// Paths shorter than this are ignored [m].
 constexpr double kNoWay = 1e-10;
-/// Maximum number of moves in a tick. A few are usual, a few dozen if a round body is pressed
-/// nearly to its centre; the rest of the path follows in the next tick.
+/// Maximum number of moves in a tick. A few moves are usual, and a few dozen if a round body is
+/// pressed nearly to its centre; the rest of the path follows in the next tick.
 constexpr int kMostMoves = 64;
 
 }  // namespace
@@ -56,7 +57,7 @@ void GodObject::follow(const Vec3& p_WH, std::span<const dynamics::BodyState> bo
     leave_insides();
 }
 
-/// The point has left a body once it is outside all its parts.
+/// Notes which bodies the point has left, i.e. is outside all their parts.
 void GodObject::leave_insides() noexcept {
     for (size_t i = 0; i < parts_.size();) {
         const size_t body = parts_[i].body;
@@ -89,7 +90,7 @@ std::span<const Obstacle> GodObject::obstacles(const Vec3& p_W,
         if (surface.separation(p_S) <= kTouching) note(i, surface.shallowest(p_S));
     }
     const size_t on = met_count_;
-    // the other obstacles are found by moving the point to p_W and back
+    // find the other obstacles by moving the point to p_W and back
     const Vec3 p = p_;
     push_out(p, coming_);
     count_ = 0;
@@ -104,7 +105,7 @@ std::span<const Obstacle> GodObject::obstacles(const Vec3& p_W,
         const Vec3 p_S = in_surface(out.surface, p_);
         out.n_W = X_WS_[out.surface].R * surface.normal(out.face, p_S);
         out.gap = surface.distance(out.face, p_S);
-        // a point behind a face but not on it meets the face later, on a path around
+        // a point behind a face but not on it meets the face later, on a path around the body
         if (i < on || out.gap >= -kTouching) met_[kept++] = out;
     }
     met_count_ = kept;
@@ -157,8 +158,8 @@ Vec3 GodObject::carried(std::span<const dynamics::BodyState> bodies) const noexc
     Vec3 sum = Vec3::Zero();
     double weight = 0;
     for (const PointContact& c : contacts()) {
-        // without friction a body does not carry the point along; it may still push it, which is
-        // done next
+        // without friction, a body does not carry the point along; it may still push the point,
+        // which is done next
         const double w = friction(c.body) * c.depth;
         sum += w * (pose(c.surface, bodies) * in_surface(c.surface, p_) - p_);
         weight += w;
@@ -166,14 +167,14 @@ Vec3 GodObject::carried(std::span<const dynamics::BodyState> bodies) const noexc
     return weight > 0 ? Vec3(p_ + sum / weight) : p_;
 }
 
-/// Moves the surfaces from the last tick's poses to this tick's, and the point out of them. Returns
-/// the point's depth in the bodies that pushed it [m].
+/// Moves the surfaces from their poses in the last tick to those in this tick, and moves the point
+/// out of them. Returns the depth of the point in the bodies that pushed it [m].
 double GodObject::push_out(const Vec3& start,
                            std::span<const dynamics::BodyState> bodies) noexcept {
     const Vec3 carried_to = p_;
     HalfSpaces walls;
     std::array<size_t, kMostHalfSpaces> surface_of{};
-    // a surface with an active face cannot be entered again: each adds at most one
+    // a surface with an active face cannot be entered again, so each surface adds at most one
     // constraint
     for (bool found = true; found && walls.count < kMostHalfSpaces;) {
         found = false;
@@ -197,7 +198,7 @@ double GodObject::push_out(const Vec3& start,
             }
             if (face < 0) continue;
             const Vec3 n = surface.normal(face, at);
-            // the tangent plane at the entry, relative to the carried point
+            // signed distance of the point from the tangent plane at the entry
             const double below = surface.distance(face, at) + n.dot(after - at);
             const Vec3 n_W = X_WS.R * n;
             walls.add(n_W, -below + n_W.dot(p_ - carried_to));
@@ -214,8 +215,8 @@ double GodObject::push_out(const Vec3& start,
                : *std::max_element(bounds, bounds + static_cast<std::ptrdiff_t>(walls.count));
 }
 
-/// Collects the surfaces within reach, which are no further from the handle than the point is: no
-/// path takes the point further away.
+/// Collects the surfaces within reach, i.e. no farther from the handle than the point is: no path
+/// takes the point farther away.
 void GodObject::gather(const Vec3& p_WH) noexcept {
     near_.clear();
     const double radius = (p_WH - p_).norm() + kOnSurface;
@@ -244,8 +245,8 @@ void GodObject::refresh_normals() noexcept {
     }
 }
 
-/// The path toward the handle that the contacts leave free; sets each contact's depth to the part
-/// that it blocks.
+/// Returns the part of the path towards the handle that the contacts do not block, and sets each
+/// contact's depth to the part that it blocks.
 Vec3 GodObject::way_to(const Vec3& p_WH) noexcept {
     refresh_normals();
     HalfSpaces walls;
@@ -261,9 +262,10 @@ double GodObject::friction_depth() const noexcept {
     return sum;
 }
 
-/// Along a round face of radius r, with the handle at depth l, the nearest position is farther away
-/// than along the tangent, by the factor 1 / (1 - l / r), as in Newton's step for the distance. The
-/// factor is limited to two, beyond which a path could lead away from the handle.
+/// Corrects a path for curvature. Along a round face of radius r, with the handle at depth l, the
+/// nearest position is farther away than along the tangent by a factor of 1 / (1 - l / r), as in
+/// Newton's step for the distance. The factor is limited to two, beyond which a path could lead
+/// away from the handle.
 Vec3 GodObject::straightened(const Vec3& way) const noexcept {
     if (count_ != 1) return way;
     const PointContact& c = contacts_[0];
@@ -284,9 +286,9 @@ void GodObject::pull(const Vec3& p_WH, bool rubs) noexcept {
         held_ = left;
         const double size = left.norm();
         const double grip = rubs ? friction_depth() : 0;
-        // sliding starts beyond static friction and ends where dynamic friction holds
+        // sliding starts beyond static friction, and ends where dynamic friction holds the point
         const double rest = (sliding_ ? sliding_ratio_ : 1.0) * grip;
-        // after the last move, the point must still return to the surface below
+        // after the last move, the point still has to return to the surface below
         const bool tired = move >= kMostMoves && (count_ > 0 || move >= kMostMoves + 8);
         if (size <= rest + kNoWay || tired) break;
         Vec3 way = left;
@@ -311,7 +313,7 @@ void GodObject::leave_unpressed() noexcept {
     }
 }
 
-/// The first body in the path, or the first edge of the face that contains the path.
+/// Finds the first body in the path, or the first edge of the face along which the path leads.
 GodObject::Event GodObject::first_event(const Vec3& way) const noexcept {
     Event out;
     for (const size_t i : near_) {
@@ -326,7 +328,7 @@ GodObject::Event GodObject::first_event(const Vec3& way) const noexcept {
     }
     for (size_t i = 0; i < count_; ++i) {
         const PointContact& c = contacts_[i];
-        if (c.depth <= 0) continue;  // such a contact does not guide the path
+        if (c.depth <= 0) continue;  // a contact without depth does not guide the path
         const auto crossing = parts_[c.surface].surface.cross(c.face, in_surface(c.surface, p_),
                                                               X_WS_[c.surface].R.conjugate() * way);
         if (crossing.face < 0 || crossing.share > out.share) continue;
@@ -337,7 +339,7 @@ GodObject::Event GodObject::first_event(const Vec3& way) const noexcept {
     return out;
 }
 
-/// Drops contacts that do not hold the point, or that it has left with this move.
+/// Drops contacts that do not hold the point, or that the point has left with this move.
 void GodObject::leave_behind(const Event& event) noexcept {
     for (size_t i = count_; i-- > 0;) {
         const PointContact& c = contacts_[i];
@@ -347,7 +349,7 @@ void GodObject::leave_behind(const Event& event) noexcept {
     }
 }
 
-/// Continues a contact over the next face, unless the handle is outside that face.
+/// Continues a contact on the next face, unless the handle is outside that face.
 void GodObject::go_past_edge(const PointContact& next, const Vec3& p_WH) noexcept {
     const auto c =
         std::find_if(contacts_.begin(), contacts_.begin() + static_cast<std::ptrdiff_t>(count_),

@@ -1,10 +1,11 @@
-// HalfSpaces finds the point nearest to v that satisfies some constraints n_i . x >= b_i:
+// HalfSpaces finds the point nearest to v that satisfies a set of constraints n_i . x >= b_i:
 //
 //     minimise |x - v|^2 / 2    subject to    n_i . x >= b_i
 //
-// by its optimality conditions x = v + sum l_i n_i, l_i >= 0, l_i (n_i . x - b_i) = 0 (Zilles and
-// Salisbury 1995). In space at most three constraints determine the solution, so all sets of up to
-// three are tried, the smallest first, which is exact and takes bounded work.
+// using the optimality conditions x = v + sum l_i n_i, l_i >= 0, l_i (n_i . x - b_i) = 0 (Zilles
+// and Salisbury 1995). In three dimensions, at most three constraints determine the solution. All
+// sets of up to three constraints are therefore tried, the smallest first; this is exact, and the
+// work is bounded.
 #pragma once
 
 #include <array>
@@ -17,17 +18,17 @@ namespace dihaptic::haptics {
 
 constexpr size_t kMostHalfSpaces = 6;
 
-/// Up to three of the half-spaces, in ascending order.
+/// The indices of up to three half-spaces, in ascending order.
 struct HalfSpaceSet {
     std::array<size_t, 3> index{};
     size_t size = 0;
 
-    /// Whether all of them are among the first `count`.
+    /// Whether all half-spaces of the set are among the first `count`.
     constexpr bool within(size_t count) const noexcept {
         return size == 0 || index[size - 1] < count;
     }
 };
-/// All such sets, the smallest first.
+/// All possible sets, the smallest first.
 constexpr auto kHalfSpaceSets = [] {
     std::array<HalfSpaceSet, 42> out{};
     size_t at = 1;  // the first set is empty
@@ -43,7 +44,7 @@ constexpr auto kHalfSpaceSets = [] {
 struct HalfSpaces {
     std::array<Vec3, kMostHalfSpaces> n;  // unit
     std::array<double, kMostHalfSpaces> b{};
-    std::array<double, kMostHalfSpaces> multiplier{};  // l of the last nearest()
+    std::array<double, kMostHalfSpaces> multiplier{};  // l from the last call of nearest()
     size_t count = 0;
 
     void add(const Vec3& normal, double bound = 0) noexcept {
@@ -51,8 +52,8 @@ struct HalfSpaces {
         b[count++] = bound;
     }
 
-    /// Returns x and sets the multipliers. If no point satisfies all constraints, x is the one that
-    /// violates them least.
+    /// Returns x and sets the multipliers. If no point satisfies all constraints, x is the point
+    /// that violates them least.
     Vec3 nearest(const Vec3& v) noexcept {
         const double slack = 1e-13 + 1e-12 * v.norm();
         double least_miss = std::numeric_limits<double>::infinity();
@@ -76,11 +77,11 @@ struct HalfSpaces {
     }
 
   private:
-    /// Moves x to the nearest position on all boundaries of a set, and sets the multipliers l.
-    /// False if a multiplier is negative or the normals are nearly dependent: a smaller set then
-    /// has the solution.
+    /// Moves x to the nearest position that is on the boundaries of all half-spaces in a set, and
+    /// sets the multipliers l. Returns false if a multiplier is negative or the normals are nearly
+    /// dependent; a smaller set then has the solution.
     bool meet(const HalfSpaceSet& set, Vec3& x, Vec3& l) const noexcept {
-        // Gram matrix of the set's normals, padded by ones
+        // Gram matrix of the set's normals, padded with ones on the diagonal
         Mat3 gram = Mat3::Identity();
         Vec3 rhs = Vec3::Zero();
         for (size_t i = 0; i < set.size; ++i) {

@@ -5,9 +5,9 @@
 namespace dihaptic::haptics {
 namespace {
 
-// A damper of more than m / T removes more than a handle's momentum in a period T. As a multiple
-// of the stiffness held, its limit is m / (2 kHeldShare b), with 75 g and 3 N*s/m, and likewise
-// with a gimbal's inertia.
+// A damper stronger than m / T removes more than a handle's momentum in a period T. Expressed as a
+// multiple of the held stiffness, its limit is m / (2 kHeldShare b), with 75 g and 3 N*s/m, and
+// likewise with a gimbal's inertia.
 constexpr double kDamperTime = 0.075 / (2 * kHeldShare * 3);
 constexpr double kTurnDamperTime = 1e-4 / (2 * kHeldShare * 0.02);
 
@@ -22,7 +22,7 @@ frame::CouplingSettings softened(frame::CouplingSettings asked, double b, double
     if (asked.damping) asked.damping = std::min(*asked.damping, kDamperTime * k);
     if (asked.turn_damping)
         asked.turn_damping = std::min(*asked.turn_damping, kTurnDamperTime * kTurnHeld * k);
-    // smoothing delays by ticks, which are longer now: limit it to about one late tick
+    // smoothing delays force by ticks, which are longer now: limit it to about one late tick
     asked.smoothing = std::max(asked.smoothing, lateness / (lateness + tick));
     return asked;
 }

@@ -9,7 +9,7 @@ namespace dihaptic::haptics {
 Vec3 Limiter::limit(const Vec3& asked, double h, uint32_t& status) noexcept {
     if (!asked.allFinite()) faulted_ = true;
     if (faulted_) {
-        // straight to zero: only in a fault may force drop faster than the limit
+        // straight to zero: the only case in which force may drop faster than the limit
         status |= kNotFinite;
         last_.setZero();
         return last_;

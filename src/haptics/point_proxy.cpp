@@ -13,7 +13,8 @@ PointProxy::PointProxy(const scene::Scene& scene, BodyIndex body,
       point_(scene.bodies, std::vector<double>(scene.bodies.size()), settings.sliding_friction),
       onset_(coupling.onset) {}
 
-/// On a soft surface, which is pressed less, friction balances less of the spring's force.
+/// On a soft surface, on which the point presses less, friction balances less of the spring's
+/// force.
 void PointProxy::feel_surfaces(const World& world) noexcept {
     for (size_t i = 0; i < shares_.size(); ++i) {
         const BodyIndex body{static_cast<int>(i)};
@@ -48,7 +49,7 @@ Pull PointProxy::render(World& world, const frame::Handle& handle, double h, dou
     Vec3 f_H_W = Vec3::Zero();
     for (const contact::Contact& c : contacts()) {
         f_H_W += c.f_B_W;
-        // summed over all ticks in a step of the world, this is their mean
+        // summed over all ticks of a step of the world, this gives their mean
         world.apply_at(c.a, -c.f_B_W * (h / step), p_WP);
     }
     for (const contact::Contact& c : contacts()) {
@@ -58,13 +59,13 @@ Pull PointProxy::render(World& world, const frame::Handle& handle, double h, dou
     return {f_H_W, stored(handle)};
 }
 
-/// Energy of the spring to the present point [J].
+/// Energy of the spring between the handle and the current point [J].
 double PointProxy::stored(const frame::Handle& handle) const noexcept {
     return share_ * onset_.share() * coupling_.stiffness / 2 *
            (point_.position() - handle.p_WH).squaredNorm();
 }
 
-/// Velocity, at the point, of its supporting surfaces, weighted by depth.
+/// Velocity, at the point, of the surfaces that support it, weighted by depth.
 Vec3 PointProxy::surface_velocity(const World& world) const noexcept {
     Vec3 sum = Vec3::Zero();
     double weight = 0;
@@ -76,18 +77,18 @@ Vec3 PointProxy::surface_velocity(const World& world) const noexcept {
     return sum / weight;
 }
 
-/// Resolves a force into contacts, each with its part of the force on the handle.
+/// Distributes a force over the contacts, each of which gets its part of the force on the handle.
 void PointProxy::resolve(const Vec3& f_W) noexcept {
     HalfSpaces walls;
     for (const PointContact& c : point_.contacts()) walls.add(c.n_W);
-    // the part of the handle's pull that the surfaces cannot bear is left to friction
+    // the part of the handle's pull that the surfaces cannot support is left to friction
     Vec3 along = -walls.nearest(-f_W);
     double grip = 0;
     const auto touched = point_.contacts();
     for (size_t i = 0; i < touched.size(); ++i)
         grip += point_.friction(touched[i].body) * walls.multiplier[i];
     if (point_.sliding()) {
-        // Coulomb's law: the magnitude is that of friction, whatever the force of spring and damper
+        // Coulomb's law: the magnitude is that of friction, whatever the spring and damper exert
         const double size = point_.held().norm();
         along = size > 0 ? Vec3(-point_.sliding_ratio() * grip / size * point_.held())
                          : Vec3(Vec3::Zero());

@@ -25,7 +25,7 @@ Vec3 RotationalCoupling::torque(const World& world, BodyIndex proxy, bool touchi
     const dynamics::BodyState& state = world.state(proxy);
     Vec3 stretch = rotation_vector(state.X_WB.R * wanted(handle).conjugate());
     stored_ = share * settings_.turn_stiffness / 2 * stretch.squaredNorm();
-    // as with forces: in free space the spring only turns the proxy's own inertia
+    // as for forces: in free space, the spring only turns the inertia of the proxy itself
     if (!touching) return Vec3::Zero();
     Vec3 torque = settings_.turn_stiffness * stretch + damping_ * (state.w_WB - handle.w_WH);
     if (of_step) {

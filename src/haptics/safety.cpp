@@ -9,20 +9,20 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// Whether all values are numbers, and the orientation is a unit quaternion.
+/// Whether all values are finite numbers and the orientation is a unit quaternion.
 bool is_sound(const frame::Handle& read) noexcept {
     constexpr double kUnit = 1e-3;
     return read.p_WH.allFinite() && read.v_WH.allFinite() && read.w_WH.allFinite() &&
            std::abs(read.R_WH.squaredNorm() - 1) < kUnit;
 }
 
-/// Judges a reading of a handle, given its state `last` at the time `elapsed` before [s]; 0: no
-/// earlier reading.
+/// Checks a reading of a handle against its state `last`, a time `elapsed` earlier [s]; 0 if there
+/// is no earlier reading.
 void judge_motion(const frame::Handle& read, const frame::Handle& last, double elapsed,
                   double max_speed, Fault& fault) noexcept {
     double speed = read.v_WH.norm();
     if (elapsed > 0) speed = std::max(speed, (read.p_WH - last.p_WH).norm() / elapsed);
-    // written so that an infinite speed or NaN fails, too
+    // written so that infinite and NaN speeds fail too
     if (!(speed <= max_speed)) {
         fault.kind = FaultKind::too_fast;
         fault.value = speed;

@@ -1,11 +1,11 @@
-// SoftStart raises force gently: after activation and a pause, and when a dead-man switch is
+// SoftStart lets force rise gently after activation, after a pause, and when a dead-man switch is
 // pressed again.
 //
-// Anything around a hand at that moment (an object, a wall, a field) would strike it. The fraction
-// of the force that is sent therefore rises from 0 to 1 in the time T, in the same way on all
-// devices. If no force is requested from any device, nothing can strike, and the rise ends at once:
-// objects touched later are felt with full force. If their force were ramped as well, a hand would
-// sink into a wall, which would then throw it out.
+// Otherwise, anything around the hand at that moment (an object, a wall, a field) would strike it.
+// The fraction of the force that is sent therefore rises from 0 to 1 in the time T, in the same way
+// on all devices. If no force is requested from any device, nothing can strike, and the rise ends
+// at once: objects touched later are felt with full force. If their force were ramped up as well,
+// the hand would sink into a wall, which would then throw it out.
 #pragma once
 
 #include <algorithm>
@@ -14,11 +14,12 @@ namespace dihaptic::haptics {
 
 class SoftStart {
   public:
-    /// `duration`: T [s].
+    /// `duration` is the time T [s].
     explicit SoftStart(double duration) : duration_(duration) {}
 
-    /// The fraction of this tick's force that may be sent. `allowed`: by the dead-man switch;
-    /// `asked`: whether a force is requested from any device; `h`: duration of the tick [s].
+    /// Returns the fraction of this tick's force that may be sent. `allowed` tells whether the
+    /// dead-man switch allows force, `asked` whether any device requests a force, and `h` is the
+    /// duration of the tick [s].
     double share(bool allowed, bool asked, double h) noexcept {
         if (!allowed) {
             elapsed_ = 0;
@@ -30,7 +31,7 @@ class SoftStart {
         return share;
     }
 
-    /// Starts again after a pause.
+    /// Restarts after a pause.
     void restart() noexcept { elapsed_ = 0; }
 
   private:

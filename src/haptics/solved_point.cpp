@@ -5,13 +5,13 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// A point that moves more slowly than this along a surface is at rest [m/s]. Solvers leave errors
-/// of a few nm/s.
+/// A point counts as at rest if it moves more slowly than this along a surface [m/s]. The errors of
+/// solvers are a few nm/s.
 constexpr double kRest = 1e-6;
 
-/// The point starts each step on the surface, as if unloaded. In the step it yields at
-/// such a speed u that a contact's impulse r = (v - u) m is the impulse of both springs in series,
-/// with v = h k x / m the speed to which the coupling pulls it: u / r = k / (k_s m).
+/// The point starts each step on the surface, as if unloaded. During the step, it yields at a speed
+/// u, chosen such that the contact's impulse r = (v - u) m is that of both springs in series; v = h
+/// k x / m is the speed towards which the coupling pulls the point. This gives u / r = k / (k_s m).
 double give(const scene::PairSurface& surface, double stiffness, double mass) {
     return surface.is_soft() ? stiffness / (surface.stiffness * mass) : 0;
 }
@@ -24,7 +24,7 @@ SolvedPoint::SolvedPoint(const scene::Scene& scene, BodyIndex body,
     : coupling_(coupling),
       onset_(coupling.onset),
       body_(body),
-      // the step determines the point's position, including friction
+      // the step determines the position of the point, including friction
       point_(scene.bodies, std::vector<double>(scene.bodies.size(), 0), 1),
       sliding_friction_(settings.sliding_friction),
       popthrough_(settings.popthrough.value_or(std::numeric_limits<double>::infinity())) {}
@@ -65,7 +65,7 @@ void SolvedPoint::after_step(World& world, const frame::Handle& handle) noexcept
         if (c.b != body_ || c.normal_force <= 0) continue;
         const double share = share_of(world, c.a);
         presses_[press_count_++] = {c.n_W, c.friction, share};
-        // the point yields from the surface, but still ends on it
+        // the point yields away from the surface, but still ends on it
         v_WP_ += give(world.surface(c.a, body_), coupling_.stiffness, mass_) * step_ *
                  c.normal_force * c.n_W;
         given += c.normal_force;
@@ -111,7 +111,7 @@ double SolvedPoint::energy(const Vec3& stretch) const noexcept {
     return share_ * onset_.share() * coupling_.stiffness / 2 * stretch.squaredNorm();
 }
 
-/// The part of the spring's force that the step's contacts can bear.
+/// Returns the part of the spring's force that the step's contacts can support.
 Vec3 SolvedPoint::in_cones(const Vec3& spring) const noexcept {
     HalfSpaces walls;
     for (size_t i = 0; i < press_count_; ++i) walls.add(presses_[i].n_W);
@@ -127,7 +127,7 @@ Vec3 SolvedPoint::in_cones(const Vec3& spring) const noexcept {
     return pressing + along;
 }
 
-/// Until the next step, a surface that is first met between two steps has no friction.
+/// A surface that is first met between two steps has no friction until the next step.
 Vec3 SolvedPoint::meet_between_steps(World& world, const frame::Handle& handle, double h) noexcept {
     point_.slide(handle.p_WH);
     world.set_point(body_, point_.position(), handle.v_WH);

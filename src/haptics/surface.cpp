@@ -12,8 +12,8 @@ namespace {
 using scene::ShapeKind;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Roots of |p + s d| = r for p outside and d toward the origin, in as many dimensions as the
-/// vectors have. The formula for the first root avoids the difference of nearly equal numbers.
+/// Roots s of |p + s d| = r for p outside and d pointing towards the origin, in any number of
+/// dimensions. The formula for the first root avoids subtracting nearly equal numbers.
 struct Roots {
     double first = kInfinity;
     double last = -kInfinity;
@@ -31,8 +31,8 @@ Roots ball_roots(const Vector& p, const Vector& d, double r) {
     return {(-b - root) / a, root + b > 0 ? -c / (b + root) : 0.0};
 }
 
-/// The part of a straight path inside a cone that extends infinitely below its tip: where the
-/// length of q + s e is at most l - s k. Either root may be infinite.
+/// The part of a straight path that is inside a cone which extends infinitely below its tip, i.e.
+/// where the length of q + s e is at most l - s k. Either root may be infinite.
 Roots cone_roots(const Eigen::Vector2d& q, const Eigen::Vector2d& e, double l, double k) {
     const double a = e.squaredNorm() - k * k;
     const double b = q.dot(e) + l * k;
@@ -42,7 +42,7 @@ Roots cone_roots(const Eigen::Vector2d& q, const Eigen::Vector2d& e, double l, d
     const double root = std::sqrt(std::max(0.0, inside));
     const double sum = b < 0 ? -b + root : -b - root;
     const double near = sum != 0 ? c / sum : 0.0;
-    if (a == 0) {  // along a line of the side: the other root is at infinity
+    if (a == 0) {  // parallel to a line of the side: the other root is at infinity
         if (k < 0 && b < 0) return {near, kInfinity};
         if (k > 0 && b > 0) return {-kInfinity, near};
         return {};
@@ -51,13 +51,13 @@ Roots cone_roots(const Eigen::Vector2d& q, const Eigen::Vector2d& e, double l, d
     const double first = std::min(near, far);
     const double last = std::max(near, far);
     if (a < 0) return k < 0 ? Roots{last, kInfinity} : Roots{-kInfinity, first};
-    // between the roots, unless they belong to the cone's image above its tip, where l - s k is
-    // negative
+    // the path is inside between the roots, unless they belong to the cone's mirror image above its
+    // tip, where l - s k is negative
     return l + b / a * k < 0 ? Roots{} : Roots{first, last};
 }
 
-/// The part of p + s d inside c r + s z = radius, with r the distance from the z axis; a
-/// cylinder has s = 0.
+/// The part of p + s d that is inside the side c r + s z = radius, with r the distance from the z
+/// axis; s = 0 for a cylinder.
 Roots side_roots(const Vec3& p, const Vec3& d, double c, double s, double radius) {
     const Eigen::Vector2d q = p.head<2>();
     const Eigen::Vector2d e = d.head<2>();
@@ -84,8 +84,8 @@ Surface::Surface(const scene::Shape& shape, double skin, bool has_seams)
                 flats_.push_back({face.normal, face.offset + skin});
                 inner = std::min(inner, face.offset - face.normal.dot(centre));
             }
-            // the faces moved outward stay within the shape scaled by 1 + skin / inner about a
-            // point inside
+            // when moved outward, the faces stay within the shape scaled by 1 + skin / inner about
+            // an inner point
             for (const Vec3& v : hull.vertices)
                 reach_ = std::max(reach_, centre.norm() + (v - centre).norm() * (1 + skin / inner));
             break;
@@ -120,7 +120,7 @@ Surface::Surface(const scene::Shape& shape, double skin, bool has_seams)
             break;
         }
         case ShapeKind::compound:
-            break;  // surfaces exist for its parts only
+            break;  // only the parts of a compound have surfaces
     }
 }
 
@@ -146,7 +146,7 @@ Vec3 Surface::normal(int face, const Vec3& p) const noexcept {
     if (is_flat(face)) return flats_[static_cast<size_t>(face)].n;
     const Vec3 from_axis = has_side() ? Vec3(p.x(), p.y(), 0) : Vec3(p - axis_point(p));
     const double size = from_axis.norm();
-    // on the axis any direction is valid
+    // on the axis, any direction is valid
     const Vec3 away = size > 0 ? Vec3(from_axis / size) : Vec3(Vec3::UnitX());
     return is_cone() ? Vec3(lean_.c * away + lean_.s * Vec3::UnitZ()) : away;
 }
@@ -176,9 +176,8 @@ std::optional<Surface::Entry> Surface::enter(const Vec3& p, const Vec3& d) const
     if (apart > d.norm() + kOnSurface) return {};
     if (apart > kOnSurface && flats_.empty()) return enter_ball(p, d);
     if (apart > kOnSurface) return over_seams(enter_faces(p, d), p, d);
-    // Faces through p: a convex solid lies below each of them, so a path not blocked by one
-    // of them never enters. Among blocking faces, p first slides along the least blocking
-    // one.
+    // Faces through p: since a convex solid lies below each of them, a path is blocked only if all
+    // of them block it. Among blocking faces, p first slides along the one that blocks least.
     Entry least{0, -1};
     double fastest = -kInfinity;
     for (int face = 0; face < std::max(1, faces()); ++face) {
@@ -246,7 +245,7 @@ std::optional<Surface::Entry> Surface::over_seams(std::optional<Entry> entry, co
     for (int face = 0; face < static_cast<int>(flats_.size()); ++face) {
         const Flat& flat = flats_[static_cast<size_t>(face)];
         if (face == entry->face || flat.n.dot(at) - flat.offset < -kSeam) continue;
-        // along that face or away from it: the path does not enter the part
+        // the path leads along that face or away from it, so it does not enter the part
         if (flat.n.dot(p + d) - flat.offset >= -kSeam) return {};
         entry->face = face;
         return entry;
@@ -263,7 +262,7 @@ Surface::Crossing Surface::cross(int face, const Vec3& p, const Vec3& d) const n
     for (int i = 0; i < static_cast<int>(flats_.size()); ++i) {
         const Flat& flat = flats_[static_cast<size_t>(i)];
         const double speed = flat.n.dot(d);
-        // a face nearly parallel to this one does not share an edge with it
+        // a face nearly parallel to this one cannot share an edge with it
         if (i != face && speed > 1e-12 * d.norm()) at((flat.offset - flat.n.dot(p)) / speed, i);
     }
     if (has_side() && is_flat(face)) {

@@ -1,9 +1,10 @@
-// Surface is the surface of a convex shape for a point proxy: the entry of a straight path into the
-// solid, the face that keeps the point out there, and the exit of a path along that face.
+// Surface represents the surface of a convex shape for a point proxy. It computes where a straight
+// path enters the solid, which face keeps the point out there, and where a path along that face
+// leaves it.
 //
 // A polyhedron has the faces of its hull; a cylinder has its side and two ends, and a cone its side
-// and its base; sphere, capsule and plane have one face. Everything is in the frame of the shape's
-// body B.
+// and its base; sphere, capsule and plane have one face. All vectors are in the frame of the
+// shape's body B.
 #pragma once
 
 #include <optional>
@@ -13,63 +14,64 @@
 
 namespace dihaptic::haptics {
 
-/// A point within this distance of a surface is on it: the accuracy of positions [m]. A stiffness
-/// of 10 000 N/m turns it into 10 uN.
+/// A point within this distance of a surface is on the surface [m]. This is the accuracy of
+/// positions; with a stiffness of 10 000 N/m it corresponds to 10 uN.
 constexpr double kOnSurface = 1e-9;
 
-/// Where two parts of a body share a plane, rounding leaves a step at which a sliding point would
-/// stop. A point that enters a part through a side face, no deeper than this below another face,
-/// enters through that other face [m].
+/// Where two parts of a body share a plane, rounding errors leave a step at which a sliding point
+/// would stop. Therefore, if a point enters a part through a side face, no deeper than this below
+/// another face, it is treated as entering through that other face [m].
 constexpr double kSeam = 1e-7;
 
 class Surface {
   public:
-    /// The surface of a shape with its faces moved outward by `skin` [m]. `has_seams`: the shape is
-    /// a part of a body whose other parts continue its faces; see kSeam.
+    /// Creates the surface of a shape whose faces are moved outward by `skin` [m]. `has_seams`
+    /// tells whether the shape is a part of a body whose other parts continue its faces; see kSeam.
     Surface(const scene::Shape& shape, double skin, bool has_seams = false);
 
-    /// Distance of p outside the solid: negative inside, a lower bound outside [m].
+    /// Distance of p from the solid [m]: negative inside; outside, a lower bound.
     double separation(const Vec3& p_B) const noexcept;
 
     struct Entry {
-        double share = 0;  ///< of the path covered at the entry
-        int face = -1;     ///< face of entry
+        double share = 0;  ///< fraction of the path covered at the entry
+        int face = -1;     ///< face through which the path enters
     };
-    /// Where the straight path p + s d, 0 <= s <= 1, enters the solid; nullopt if it does not. A
-    /// point on or below the surface enters at once unless d leads along a face there or away from
-    /// it.
+    /// Finds where the straight path p + s d, 0 <= s <= 1, enters the solid. Returns nullopt if it
+    /// does not. A point on or below the surface enters at once, unless d leads along a face there
+    /// or away from it.
     std::optional<Entry> enter(const Vec3& p_B, const Vec3& d_B) const noexcept;
-    /// The face nearest to p from inside.
+    /// The face nearest to a point p inside the solid.
     int shallowest(const Vec3& p_B) const noexcept;
-    /// Outward unit normal at the point of a face that is nearest to p.
+    /// Outward unit normal of a face at the point nearest to p.
     Vec3 normal(int face, const Vec3& p_B) const noexcept;
-    /// Signed distance of p from a face, or its plane [m].
+    /// Signed distance of p from a face, or from its plane [m].
     double distance(int face, const Vec3& p_B) const noexcept;
 
     struct Crossing {
-        double share = 1;  ///< of the path covered at its end or exit from the face
-        int face = -1;     ///< face beyond the edge; -1: the path stays on the face
+        double share = 1;  ///< fraction of the path covered when it ends or leaves the face
+        int face = -1;     ///< face beyond the edge, or -1 if the path stays on the face
     };
-    /// The part of a path along a face that stays over it.
+    /// Finds the part of a path along a face that stays over the face.
     Crossing cross(int face, const Vec3& p_B, const Vec3& d_B) const noexcept;
 
-    /// The part of a tangent d along which a face is curved at p; zero where it is flat.
-    /// bend_radius() is the radius of that curve [m].
+    /// The component of a tangent d in the direction in which a face is curved at p; zero if the
+    /// face is flat. bend_radius() is the radius of this curvature [m].
     Vec3 bent_part(int face, const Vec3& p_B, const Vec3& d_B) const noexcept;
     double bend_radius(const Vec3& p_B) const noexcept;
-    /// Whether no face is curved.
+    /// Whether all faces are flat.
     bool is_polyhedron() const noexcept { return !has_side() && !flats_.empty(); }
 
-    /// Largest distance of any point of the shape from B's origin; infinite for a plane [m].
+    /// Largest distance between B's origin and any point of the shape [m]; infinite for a plane.
     double reach() const noexcept { return reach_; }
 
   private:
     struct Flat {
-        Vec3 n;         // outward, unit
-        double offset;  // n . x on the face [m]
+        Vec3 n;         // unit outward normal
+        double offset;  // n . x for points x on the face [m]
     };
-    /// The side of a cylinder or a cone has c r + s z = radius_, with r the distance from the axis,
-    /// and c and s cosine and sine of the side's angle of inclination, which is 0 for a cylinder.
+    /// The side of a cylinder or a cone has c r + s z = radius_, where r is the distance from the
+    /// axis, and c and s are the cosine and sine of the side's angle of inclination, which is 0 for
+    /// a cylinder.
     struct Lean {
         double c = 1, s = 0;
     };
@@ -87,11 +89,11 @@ class Surface {
 
     scene::ShapeKind kind_;
     bool has_seams_;
-    std::vector<Flat> flats_;  // of polyhedra, ends of a cylinder, base of a cone, the plane
-    Lean lean_;                // of a side
-    double radius_ = 0;        // sphere, capsule, cylinder; cone: see Lean
-    double base_radius_ = 0;   // of the ends of cylinder and cone
-    double half_ = 0;          // half the length of capsule, cylinder and cone
+    std::vector<Flat> flats_;  // faces of a polyhedron, ends of a cylinder, base of a cone, a plane
+    Lean lean_;                // of the side of a cylinder or a cone
+    double radius_ = 0;        // of a sphere, capsule or cylinder; for a cone, see Lean
+    double base_radius_ = 0;   // radius of the ends of a cylinder, or of the base of a cone
+    double half_ = 0;          // half the length of a capsule, cylinder or cone
     double reach_ = 0;
 };
 

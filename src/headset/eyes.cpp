@@ -11,11 +11,12 @@ namespace dihaptic::headset {
 namespace {
 
 constexpr auto kViews = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
-constexpr double kNearest = 0.03, kFurthest = 30;  // limits of drawing, from an eye [m]
-constexpr double kPanel = 1;                       // width of the panel with words [m]
-constexpr double kPanelAhead = 1;                  // distance from the head [m]
+constexpr double kNearest = 0.03, kFurthest = 30;  // limits of the drawn range from an eye [m]
+constexpr double kPanel = 1;                       // width of the panel that shows words [m]
+constexpr double kPanelAhead = 1;                  // distance of the panel from the head [m]
 
-/// Items that a function lists in two calls: first their number, then the items.
+/// Returns the items that a function lists in two calls: the first returns their number, the second
+/// the items themselves.
 template <class Item, class List>
 std::vector<Item> listed(const List& list, const Item& empty) {
     uint32_t count = 0;
@@ -41,7 +42,7 @@ view::FieldOfView from_xr(const XrFovf& fov) {
     return {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown};
 }
 
-/// The whole picture of an eye or a panel.
+/// Returns the sub-image that covers the whole picture of an eye or a panel.
 XrSwapchainSubImage whole(const Pictures& pictures) {
     XrSwapchainSubImage out{};
     out.swapchain = pictures.swapchain;
@@ -49,7 +50,7 @@ XrSwapchainSubImage whole(const Pictures& pictures) {
     return out;
 }
 
-/// Waits for a free picture to draw, and gives it back to the runtime at the end of the scope.
+/// Waits for a free picture to draw in, and returns it to the runtime at the end of the scope.
 class Taken {
   public:
     explicit Taken(const Pictures& pictures) : pictures_(pictures) {
@@ -133,7 +134,7 @@ void Eyes::connect() {
     model_ = system.systemName;
 }
 
-/// A runtime demands this query before a session is created.
+/// Queries the graphics requirements, which a runtime demands before a session is created.
 void Eyes::check_graphics() const {
     const auto requirements =
         function<PFN_xrGetOpenGLGraphicsRequirementsKHR>("xrGetOpenGLGraphicsRequirementsKHR");
@@ -202,7 +203,7 @@ void Eyes::make_pictures() {
     if (views.size() != kCount)
         throw Error(fmt::format("{} does not show a separate picture to each eye", runtime_),
                     "Use another headset.");
-    // the same size, since both are drawn at once
+    // both eyes have the same picture size, because they are drawn at once
     const auto width =
         std::max(views[0].recommendedImageRectWidth, views[1].recommendedImageRectWidth);
     const auto height =
@@ -314,7 +315,7 @@ void Eyes::copy_from(size_t eye, int left) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                            taken.texture(), 0);
-    // the scene is drawn as sRGB, and the runtime reads it as sRGB
+    // the scene is drawn as sRGB values, and the runtime reads them as sRGB
     glDisable(GL_FRAMEBUFFER_SRGB);
     glBlitFramebuffer(left, 0, left + to.width, to.height, 0, 0, to.width, to.height,
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
@@ -331,11 +332,11 @@ void Eyes::set_words(const Words& words, const Look& look) {
     const Taken taken(words_);
     glBindTexture(GL_TEXTURE_2D, taken.texture());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    for (int y = 0; y < Words::kHeight; ++y)  // OpenGL's rows go from bottom to top
+    for (int y = 0; y < Words::kHeight; ++y)  // rows in OpenGL go from bottom to top
         glTexSubImage2D(GL_TEXTURE_2D, 0, 0, Words::kHeight - 1 - y, Words::kWidth, 1, GL_RGBA,
                         GL_UNSIGNED_BYTE, &words.rgba[static_cast<size_t>(y) * kRow]);
     if (!came) return;
-    // upright, in front of the head
+    // the panel is upright, in front of the head
     const Pose X_SV = X_WS_.inverse() * look.X_WV;
     const Vec3 backward = X_SV.R * Vec3::UnitZ();
     Vec3 right = Vec3::UnitY().cross(backward);
@@ -351,7 +352,7 @@ std::chrono::steady_clock::time_point Eyes::steady(XrTime time) const {
     timespec at{};
     if (to_timespec_ == nullptr || !XR_SUCCEEDED(to_timespec_(instance_, time, &at)))
         return Clock::now();
-    // both times are CLOCK_MONOTONIC
+    // both times are on the CLOCK_MONOTONIC clock
     return Clock::time_point(std::chrono::seconds(at.tv_sec) +
                              std::chrono::nanoseconds(at.tv_nsec));
 }

@@ -1,4 +1,4 @@
-// The headset's session with OpenXR: from connecting to the runtime to handing over a picture for
+// The headset's session with OpenXR, from connecting to the runtime to handing over a picture for
 // each eye.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace dihaptic::headset {
 
-/// A swapchain: pictures in OpenGL's memory, which the runtime shows.
+/// A swapchain: pictures in OpenGL's memory that the runtime shows.
 struct Pictures {
     xr::Swapchain swapchain;
     std::vector<GLuint> textures;
@@ -25,23 +25,23 @@ class Eyes {
   public:
     static constexpr size_t kCount = 2;  // left, right
 
-    /// Throws Error when there is no runtime, no headset, or not the space that `place` requires.
-    /// `gl` must be current, and outlive this object.
+    /// Connects to the runtime. Throws Error if there is no runtime, no headset, or not the kind of
+    /// space that `place` requires. `gl` must be current, and must outlive this object.
     Eyes(const display::Headset& place, const GlxContext& gl);
     Eyes(const Eyes&) = delete;
     Eyes& operator=(const Eyes&) = delete;
 
-    /// The runtime and the headset, in words.
+    /// A description of the runtime and the headset.
     std::string describe() const;
-    /// Size of an eye's picture [pixels].
+    /// Size of the picture for one eye [pixels].
     int width() const { return pictures_[0].width; }
     int height() const { return pictures_[0].height; }
 
-    /// Handles the runtime's events. Returns whether the runtime needs pictures; throws Error when
+    /// Handles the runtime's events. Returns whether the runtime needs pictures. Throws Error if
     /// the session has ended.
     bool wants_pictures();
 
-    /// The viewpoints for a picture.
+    /// The viewpoints from which a picture is drawn.
     struct Look {
         XrTime time = 0;
         bool drawn = false;  ///< whether the picture will be visible
@@ -51,11 +51,12 @@ class Eyes {
     };
     /// Waits until the next picture is due, and returns its viewpoints.
     Look begin_picture();
-    /// Copies an eye's picture from the framebuffer bound for reading, starting at `left`.
+    /// Copies one eye's picture from the framebuffer that is bound for reading, starting at column
+    /// `left`.
     void copy_from(size_t eye, int left);
-    /// Redraws words, which hang in front of the head at its pose in the look.
+    /// Redraws the words, which hang in front of the head at the head's pose in `look`.
     void set_words(const Words& words, const Look& look);
-    /// Submits the picture; returns the time when its light appears.
+    /// Submits the picture. Returns the time at which its light appears.
     std::chrono::steady_clock::time_point end_picture(const Look& look);
 
   private:
@@ -77,13 +78,14 @@ class Eyes {
     xr::Instance instance_;
     XrSystemId system_ = XR_NULL_SYSTEM_ID;
     std::string runtime_, model_;
-    PFN_xrConvertTimeToTimespecTimeKHR to_timespec_ = nullptr;  // null: the runtime lacks it
+    // null if the runtime lacks the function
+    PFN_xrConvertTimeToTimespecTimeKHR to_timespec_ = nullptr;
     xr::Session session_;
     xr::Space space_, head_;
     XrEnvironmentBlendMode blend_ = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
     std::array<Pictures, kCount> pictures_;
     Pictures words_;
-    std::optional<Pose> X_SP_;  // pose of the panel with words; unset: no words
+    std::optional<Pose> X_SP_;  // pose of the panel that shows words; unset if there are no words
     std::array<XrView, kCount> views_{};
     bool running_ = false;
 };

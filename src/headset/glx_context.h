@@ -1,4 +1,4 @@
-// An OpenGL context on X11 without a window, for a thread that draws for a headset: OpenXR runtimes
+// An OpenGL context on X11 without a window, for a thread that draws for a headset. OpenXR runtimes
 // on Linux accept pictures from such a context.
 #pragma once
 
@@ -8,10 +8,11 @@
 
 namespace dihaptic::headset {
 
-/// An OpenGL 3.3 core context, current in the thread that made it, with its own connection to X11.
+/// An OpenGL 3.3 core context with its own connection to X11. It is current in the thread that
+/// created it.
 class GlxContext {
   public:
-    /// Throws Error when there is no X11, or no OpenGL 3.3.
+    /// Creates the context. Throws Error if X11 or OpenGL 3.3 is not available.
     GlxContext();
     ~GlxContext();
     GlxContext(const GlxContext&) = delete;
@@ -23,7 +24,7 @@ class GlxContext {
     struct Close {
         void operator()(Display* display) const { XCloseDisplay(display); }
     };
-    std::unique_ptr<Display, Close> display_;  // closed too if the rest cannot be made
+    std::unique_ptr<Display, Close> display_;  // also closed if the rest cannot be created
     GLXFBConfig config_ = nullptr;
     GLXContext context_ = nullptr;
     GLXPbuffer surface_ = 0;

@@ -9,10 +9,10 @@
 namespace dihaptic::headset {
 namespace {
 
-constexpr auto kIdle = std::chrono::milliseconds(10);  // between polls of the runtime
+constexpr auto kIdle = std::chrono::milliseconds(10);  // time between two polls of the runtime
 constexpr size_t kMostShowings = 6000;
 
-/// Draws both eyes side by side in one pass, so that they share the shadows.
+/// Draws both eyes side by side in one pass, so that the shadows have to be computed only once.
 class Drawing {
   public:
     Drawing(int width, int height) : width_(width), height_(height) {

@@ -1,4 +1,5 @@
-// OpenXR's objects, destroyed at the end of their scope, and its results as errors in words.
+// OpenXR objects that are destroyed at the end of their scope, and OpenXR results converted to
+// errors in words.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace dihaptic::headset::xr {
 
-/// An object of OpenXR, which the destructor destroys.
+/// An OpenXR object, which the destructor destroys.
 template <class Handle, auto Destroy>
 class Owned {
   public:
@@ -23,7 +24,7 @@ class Owned {
         return *this;
     }
     operator Handle() const { return handle_; }
-    /// The place where a function that makes the object stores it.
+    /// The address at which the function that creates the object stores it.
     Handle* out() { return &handle_; }
 
   private:
@@ -35,10 +36,10 @@ using Session = Owned<XrSession, xrDestroySession>;
 using Space = Owned<XrSpace, xrDestroySpace>;
 using Swapchain = Owned<XrSwapchain, xrDestroySwapchain>;
 
-/// Throws Error when a function called `what` did not succeed.
+/// Throws Error if the call of a function, named `what` in the message, did not succeed.
 void check(XrInstance instance, XrResult result, const char* what);
 
-/// OpenXR's pose: R and p of a frame in a space.
+/// Converts the pose of a frame in a space to OpenXR's type.
 XrPosef to_xr(const Pose& X);
 Pose from_xr(const XrPosef& X);
 

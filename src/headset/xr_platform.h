@@ -1,11 +1,11 @@
-// OpenXR with the OpenGL and X11 headers that it needs. Their macros are undefined again, because
-// their names are ordinary words.
+// Includes OpenXR and the OpenGL and X11 headers that it needs. Macros from these headers are
+// undefined again, because their names are ordinary words.
 #pragma once
 
 #include <Eigen/Dense>
 #include <ctime>
 
-// included first, because OpenXR's header does not include them
+// included first, because OpenXR's header needs these headers but does not include them
 #include <epoxy/gl.h>
 #include <epoxy/glx.h>
 
@@ -25,7 +25,7 @@
 
 namespace dihaptic::headset::xr {
 
-/// An OpenXR structure with its type set and everything else zero.
+/// Returns an OpenXR structure with its type set and everything else zero.
 template <class Struct>
 Struct made(XrStructureType type) {
     Struct out{};

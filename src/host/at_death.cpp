@@ -36,7 +36,8 @@ void on_error(int signal) {
 }  // namespace
 
 void take_force_away_at_death() {
-    // the handler needs its own stack: an overflow of the main thread's stack leaves no space
+    // the handler needs its own stack, because an overflow of the main thread's stack leaves no
+    // room
     static std::array<char, 65536> stack;
     stack_t own{};
     own.ss_sp = stack.data();

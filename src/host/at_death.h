@@ -1,11 +1,13 @@
-// Switches the force of all kept devices off when the program crashes, and reports this.
+// Switches off the force of all devices that this program holds when the program crashes, and
+// reports the crash.
 #pragma once
 
 namespace dihaptic::host {
 
-/// Installs handlers for signals caused by errors of the program (SIGSEGV, SIGBUS, SIGFPE,
-/// SIGILL, SIGSYS, SIGTRAP, and SIGABRT, from std::terminate), in any thread: force is
-/// taken away first, a message goes to standard error, and the program ends as usual.
+/// Installs handlers for signals that are caused by program errors (SIGSEGV, SIGBUS, SIGFPE,
+/// SIGILL, SIGSYS, SIGTRAP, and SIGABRT, which std::terminate raises) in any thread. A handler
+/// first switches force off, then writes a message to standard error, and then lets the program end
+/// as usual.
 void take_force_away_at_death();
 
 }  // namespace dihaptic::host

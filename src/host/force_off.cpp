@@ -6,7 +6,7 @@
 namespace dihaptic::host {
 namespace {
 
-/// The pages of active devices: a program has one group of them, rarely two.
+/// The pages of the active devices. A program has one group of devices, rarely two.
 std::array<std::atomic<SharedPage*>, 4> pages{};
 
 }  // namespace

@@ -24,18 +24,18 @@ json fail(const std::string& what) {
 
 std::atomic<Server*> at_stake{nullptr};
 
-/// Most likely the manufacturer's library failed. Unless it can still stop the devices,
-/// only their own guards are left.
+/// Handles an error signal. Most likely the manufacturer's library failed. If it can no longer stop
+/// the devices, only the devices' own guards remain.
 void on_own_error(int signal) {
     constexpr itimerval kLastWait{{0, 0}, {0, 20'000}};
     std::signal(SIGALRM, SIG_DFL);
-    setitimer(ITIMER_REAL, &kLastWait, nullptr);  // the library may hold a lock, and never return
+    setitimer(ITIMER_REAL, &kLastWait, nullptr);  // the library may hold a lock and never return
     if (Server* const server = at_stake.exchange(nullptr)) server->stop_at_death();
     std::signal(signal, SIG_DFL);
     raise(signal);
 }
 
-/// Answers the program's requests outside the cycle.
+/// Answers the program's requests that come outside the ticks.
 class Control {
   public:
     Control(SharedPage& page, const InRealTime& in_real_time)
@@ -79,8 +79,8 @@ int keep(const InRealTime& in_real_time) {
         mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE, MAP_SHARED, kMemory, 0);
     if (at == MAP_FAILED) return EXIT_FAILURE;
     auto& page = *static_cast<SharedPage*>(at);
-    // the device host ends with the program or with the machine, but not when keys such as Ctrl-C
-    // are pressed in the terminal
+    // the device host ends with the program or the machine, but not when keys such as Ctrl-C are
+    // pressed in the terminal
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU})
         std::signal(signal, SIG_IGN);
     for (const int signal : kErrors) std::signal(signal, on_own_error);
@@ -88,8 +88,8 @@ int keep(const InRealTime& in_real_time) {
     while (const std::optional<json> message = receive(kSocket))
         send(kSocket, control.answer(*message));
 
-    // the program has ended: force ends first, then the devices are shut down in an orderly way,
-    // unless the manufacturer's library takes longer than kOrderly
+    // the program has ended, so force is ended first; then the devices are shut down in an orderly
+    // way, unless the manufacturer's library takes longer than kOrderly
     end_force(page);
     std::thread([] {
         constexpr auto kOrderly = std::chrono::seconds(1);

@@ -22,21 +22,23 @@ namespace {
 
 using nlohmann::json;
 
-/// A device host is abandoned when it has been silent for this much longer than the program may be.
+/// A device host is given up once it has been silent for this much longer than the program is
+/// allowed to be.
 constexpr Time kPatience = std::chrono::milliseconds(20);
-/// Limit for making and activating devices: opening and calibrating them is slow.
+/// Time limit for making and activating devices, because opening and calibrating them is slow.
 constexpr Time kSetUp = std::chrono::seconds(60);
-/// Limit for deactivating devices and ending their device host.
+/// Time limit for deactivating devices and ending their device host.
 constexpr Time kSetDown = std::chrono::seconds(2);
-/// Limit for the first tick of devices that pace.
+/// Time limit for the first tick of devices that pace.
 constexpr Time kBeginning = std::chrono::seconds(3);
-/// Smallest limit for each later tick of devices that pace, whose own clock may pause.
+/// Smallest time limit for each later tick of devices that pace, because the devices' own clock may
+/// pause.
 constexpr Time kSilence = std::chrono::milliseconds(200);
-/// Time for which an answer is awaited without sleeping: most answers arrive sooner than a sleeping
+/// Time spent polling for an answer before sleeping. Most answers arrive sooner than a sleeping
 /// thread would wake up.
 constexpr Time kHope = std::chrono::microseconds(20);
 
-/// A device host's process, its socket and the page shared with it.
+/// The process of a device host, its socket, and the page shared with it.
 class Process {
   public:
     explicit Process(const std::string& program) {
@@ -61,18 +63,18 @@ class Process {
     Process& operator=(const Process&) = delete;
 
     SharedPage& page() { return *page_; }
-    /// Whether the device host answers; remains false once an answer has failed to come.
+    /// Whether the device host answers. Once an answer has failed to arrive, this remains false.
     bool answers() const { return answers_; }
 
-    /// Sends a message and waits for the answer. Throws Error with the device host's
-    /// problems, or if it does not answer within `most` or before `given_up` returns true.
+    /// Sends a message and waits for the answer. Throws Error with the problems that the device
+    /// host reports, or if no answer arrives within `most` or before `given_up` returns true.
     json ask(const json& message, Time most, const std::function<bool()>& given_up = {}) {
         std::optional<json> answer;
         if (answers_) {
             send(socket_.get(), message);
             answer = receive(socket_.get(), most, given_up);
         }
-        // a late answer would be mistaken for the next answer
+        // a late answer would be mistaken for the answer to the next message
         answers_ = answer.has_value();
         if (!answers_ && given_up && given_up()) {
             throw Error("interrupted while the program that owns the devices did not answer",
@@ -96,8 +98,8 @@ class Process {
     void start(const std::string& program, int socket, int memory) {
         static_assert(kSocket == 3 && kMemory == 4);
         constexpr int kKept = Launch::kKept;
-        // keys in the terminal do not reach the device host, and it does not inherit the signals
-        // that are blocked or ignored here
+        // keys pressed in the terminal do not reach the device host, and it does not inherit the
+        // signals that this process blocks or ignores
         const int failed = child_.start({program,
                                          {},
                                          {kKept, kKept, kKept, socket, memory},
@@ -106,7 +108,7 @@ class Process {
     }
 
     void end() {
-        socket_.close();  // this ends the device host
+        socket_.close();  // closing the socket ends the device host
         const int64_t begin = monotonic();
         while (!child_.has_ended()) {
             if (monotonic() - begin > kSetDown.count()) kill(child_.process(), SIGKILL);
@@ -147,8 +149,8 @@ class HostedDevices final : public devices::DeviceGroup {
   private:
     void do_activate() override {
         if (process_ == nullptr || !process_->answers()) {
-            // stored only once its devices are made: otherwise the next try starts another device
-            // host
+            // stored only once its devices have been made; otherwise the next attempt starts
+            // another device host
             process_.reset();
             auto fresh = std::make_unique<Process>(order_.hosting.program);
             fresh->ask(to_json(order_), kSetUp, order_.hosting.given_up);
@@ -174,8 +176,8 @@ class HostedDevices final : public devices::DeviceGroup {
         if (lost_) process_.reset();
     }
 
-    /// Waits until the device host has answered all requests. After a wait longer than `most`, this
-    /// remains false.
+    /// Waits until the device host has answered all requests. Once a wait has taken longer than
+    /// `most`, this always returns false.
     bool await_answer(Time most) noexcept {
         SharedPage& page = process_->page();
         const uint32_t wanted = page.asked.load();
@@ -188,7 +190,8 @@ class HostedDevices final : public devices::DeviceGroup {
         return !lost_;
     }
 
-    /// Sends a request. `fill` writes its data into the page, after the last answer.
+    /// Sends a request. Once the previous request has been answered, `fill` writes the request's
+    /// data into the page.
     template <class Fill>
     bool ask(Request request, const Fill& fill) noexcept {
         if (lost_ || !await_answer(limit_)) return false;
@@ -234,13 +237,13 @@ class HostedDevices final : public devices::DeviceGroup {
             if (ask(Request::pace, [](SharedPage&) {}) && !take_turns(before, tick)) return;
         }
         lost_ = true;
-        // for an orderly end the servo continues ticking and recording until it ends the session;
-        // it finds that no device answers
+        // for an orderly end, the servo keeps ticking and recording until it finds that no device
+        // answers and ends the session
         while (tick()) std::this_thread::sleep_for(std::chrono::duration<double>(order_.tick));
     }
 
-    /// Calls `tick` for each turn offered by the device host, until `tick` returns false; returns
-    /// true if the device host falls silent first.
+    /// Calls `tick` for each turn that the device host offers, until `tick` returns false. Returns
+    /// true if the device host falls silent before that.
     bool take_turns(uint32_t seen, const std::function<bool()>& tick) {
         SharedPage& page = process_->page();
         Time most = kBeginning;
@@ -268,9 +271,9 @@ class HostedDevices final : public devices::DeviceGroup {
     Order order_;
     bool paces_;
     Time limit_;
-    std::unique_ptr<Process> process_;  // null: it was abandoned
-    bool in_turn_ = false;              // the device host offered a turn, and waits for its forces
-    bool lost_ = false;                 // the device host no longer answers
+    std::unique_ptr<Process> process_;  // null if the device host was given up
+    bool in_turn_ = false;              // whether the device host waits for a turn's forces
+    bool lost_ = false;                 // whether the device host has stopped answering
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
-// The program's side of real devices owned by another process, the device host.
+// The program's side of real devices that are owned by another process, the device host.
 //
 // The device host (host.h) is a small program in which nothing else runs. It switches the force off
-// when this program dies, stops or hangs, whatever the cause. README.md describes the communication
-// between the two, and its times.
+// when this program dies, stops or hangs, whatever the cause. README.md describes how the two
+// communicate, and the times involved.
 #pragma once
 
 #include <memory>
@@ -12,12 +12,12 @@
 
 namespace dihaptic::host {
 
-/// Path of the device host's program, a companion (base/companion.h). Throws Error if it is
-/// missing.
+/// Path of the device host's executable, which is a companion (base/companion.h). Throws Error if
+/// it is missing.
 std::string program();
 
-/// Starts a device host that makes the devices of `order`. Throws Error with their backend's
-/// message.
+/// Starts a device host that makes the devices of `order`. Throws Error with the backend's message
+/// if that fails.
 std::unique_ptr<devices::DeviceGroup> host_devices(const Order& order);
 
 }  // namespace dihaptic::host

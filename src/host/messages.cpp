@@ -27,7 +27,7 @@ Place place_of(const json& at) {
     return {at.at(0).get<std::string>(), at.at(1).get<int>()};
 }
 
-/// The node as JSON, with the position of each value in its file, for messages.
+/// Returns the node as JSON, including the position of each value in its file, which messages need.
 json tree(const Node& node) {
     json out{{"at", place(node.place)}};
     if (node.kind == Node::Kind::scalar) out["scalar"] = node.scalar;
@@ -62,9 +62,10 @@ Node node_of(const json& in) {
     return node;
 }
 
-/// Whether a message arrives within `most`; false soon after `given_up` returns true.
+/// Waits until a message arrives, for at most `most`. Returns false if none arrives in that time,
+/// or soon after `given_up` returns true.
 bool await_message(int socket, Time most, const std::function<bool()>& given_up) {
-    constexpr int64_t kLook = 20;  // between checks of `given_up` [ms]
+    constexpr int64_t kLook = 20;  // time between two checks of `given_up` [ms]
     const auto end = std::chrono::steady_clock::now() + most;
     pollfd readable{socket, POLLIN, 0};
     while (true) {
@@ -73,7 +74,7 @@ bool await_message(int socket, Time most, const std::function<bool()>& given_up)
         const int64_t wait = std::clamp<int64_t>(left.count(), 0, kLook);
         const int ready = poll(&readable, 1, static_cast<int>(wait));
         if (ready > 0) return true;
-        // a handled signal, such as Ctrl-C, also interrupts it
+        // poll() is also interrupted by a handled signal, such as Ctrl-C
         if ((ready < 0 && errno != EINTR) || left.count() <= 0) return false;
         if (given_up && given_up()) return false;
     }

@@ -1,4 +1,4 @@
-// The program's order to a device host: the devices to make, and the rules for owning them.
+// What the program orders a device host to do: the devices to make, and the rules for owning them.
 #pragma once
 
 #include <functional>
@@ -11,11 +11,11 @@ namespace dihaptic::host {
 
 /// The settings of a device host.
 struct Hosting {
-    std::string program;            ///< the device host's path: program() of hosted_devices.h
-    double longest_silence = 0.04;  ///< program's silence after which force is set to zero [s]
+    std::string program;            ///< path of the device host: program() in hosted_devices.h
+    double longest_silence = 0.04;  ///< silence after which force is set to zero [s]
     int priority = 80;              ///< SCHED_FIFO priority of the thread that serves the ticks
-    /// Returns true to end the wait for a device host that does not answer, e.g. after
-    /// Ctrl-C. May be empty.
+    /// Returns true to stop waiting for a device host that does not answer, e.g. after Ctrl-C. May
+    /// be empty.
     std::function<bool()> given_up = {};
 };
 

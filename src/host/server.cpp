@@ -6,9 +6,9 @@
 namespace dihaptic::host {
 namespace {
 
-/// Time between the watcher's checks if nothing wakes it.
+/// Time between two checks by the watcher if nothing wakes it.
 constexpr Time kLook = std::chrono::milliseconds(5);
-/// Time that the serving thread has to switch the force off, before the watcher does so.
+/// Time that the serving thread is given to switch force off before the watcher does so.
 constexpr Time kOwnWay = std::chrono::milliseconds(1);
 /// Interval at which an idle serving thread wakes up.
 constexpr Time kIdle = std::chrono::seconds(1);
@@ -48,7 +48,8 @@ void Server::activate() {
     busy_since_.store(0);
     page_.answered.store(page_.asked.load());
     watching_.store(true);
-    // setting up real time takes longer than a tick: activation waits for both threads
+    // setting up real-time scheduling takes longer than a tick, so activation waits for both
+    // threads
     std::latch ready(3);
     const auto begin = [&](int priority, void (Server::*work)() noexcept) {
         return std::thread([this, priority, work, &ready] {
@@ -87,13 +88,13 @@ void Server::serve_all() noexcept {
         const uint32_t bell = page_.bell.load(std::memory_order_acquire);
         if (ended()) take_force_away();
         if (page_.asked.load(std::memory_order_acquire) == served) {
-            // a force is held no longer than longest_silence_ after the last request
+            // a force is held for at most longest_silence_ after the last request
             const Time left = longest_silence_ - Time(monotonic() - heard);
             if (holding_ && left <= Time(0)) write_zero();
             wait_on(page_.bell, bell, holding_ ? left : kIdle);
             continue;
         }
-        // after being stopped, a device host finds requests that were made meanwhile
+        // a device host that was stopped finds requests that were made in the meantime
         heard = page_.asked_at.load(std::memory_order_relaxed);
         const Request request = page_.request.load(std::memory_order_relaxed);
         if (request == Request::quit) return;
@@ -117,7 +118,7 @@ void Server::serve(Request request) noexcept {
     }
 }
 
-/// A call to the devices: while this exists, the watcher checks the duration of the call.
+/// A call to the devices. While this object exists, the watcher checks how long the call has taken.
 class Server::Call {
   public:
     explicit Call(Server& server) : server_(server) { server_.busy_since_.store(monotonic()); }
@@ -159,14 +160,16 @@ void Server::take_force_away() noexcept {
     switch_off();
 }
 
-/// For devices without stop(), writing zero is the only means.
+/// Switches force off. For devices without stop(), writing zero is the only way, so nothing more is
+/// done for them.
 void Server::switch_off() noexcept {
     if (!devices_->can_stop() || devices_->stop()) page_.off.store(1);
 }
 
-/// Waits for the program's forces; returns whether they came in time.
+/// Waits for the program's forces. Returns whether they came in time.
 bool Server::await_reply() noexcept {
-    // after a missed turn the program gets one tick for each turn, not the entire longest silence
+    // after a missed turn, the program gets only one tick per turn rather than the entire longest
+    // silence
     const Time most = behind_ ? tick_ : longest_silence_;
     const int64_t begin = monotonic();
     while (!ended() && page_.closing.load() == 0) {
@@ -179,7 +182,7 @@ bool Server::await_reply() noexcept {
     return false;
 }
 
-/// One tick of devices that pace: the program computes between reading and writing.
+/// Runs one tick of devices that pace; the program computes the forces between reading and writing.
 bool Server::take_turn() noexcept {
     const bool overslept = holding_ && overslept_since(turned_);
     const int64_t begin = monotonic();
@@ -196,13 +199,13 @@ bool Server::take_turn() noexcept {
     return end_turn(replied);
 }
 
-/// Whether this process was stopped meanwhile, or did not get the processor: the acting force is
-/// then older than allowed.
+/// Whether this process has been stopped since `time`, or has not got the processor; the acting
+/// force is then older than allowed.
 bool Server::overslept_since(int64_t time) const noexcept {
     return monotonic() - time > longest_silence_.count();
 }
 
-/// Writes the program's reply, or zero. Returns whether another turn may follow.
+/// Writes the forces of the program's reply, or zero. Returns whether another turn may follow.
 bool Server::end_turn(bool replied) noexcept {
     if (replied && !ended()) {
         write();
@@ -214,8 +217,8 @@ bool Server::end_turn(bool replied) noexcept {
     return page_.closing.load() == 0;
 }
 
-/// Stops the devices when the program ended force, or when a call to the manufacturer's library
-/// hangs and so blocks the serving thread.
+/// Stops the devices when the program has ended force, or when a call to the manufacturer's library
+/// hangs and blocks the serving thread.
 void Server::watch() noexcept {
     bool stopped = false;
     while (watching_.load()) {

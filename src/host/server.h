@@ -1,8 +1,8 @@
-// The device host's server: it serves the ticks of the device host's devices, and takes their force
-// away.
+// The server in the device host, which serves the ticks of its devices and switches their force
+// off.
 //
-// It has two threads. One serves the program's requests in the cycle; only it reads and writes the
-// devices then. The other watches the first, and stops the devices when a call to the
+// It has two threads. One serves the program's requests during the ticks, when it alone reads and
+// writes the devices. The other watches the first, and stops the devices when a call to the
 // manufacturer's library hangs.
 #pragma once
 
@@ -19,20 +19,21 @@ namespace dihaptic::host {
 
 class Server {
   public:
-    /// Makes the devices. Throws Error with their backend's message.
+    /// Makes the devices. Throws Error with the backend's message if that fails.
     Server(SharedPage& page, const Order& order, const InRealTime& in_real_time);
     ~Server();
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
     const devices::DeviceGroup& devices() const { return *devices_; }
-    /// Switches the devices on and starts serving. Throws Error if they refuse.
+    /// Switches the devices on and starts serving. Throws Error if the devices cannot be switched
+    /// on.
     void activate();
-    /// Ends the threads and switches the devices off, force first.
+    /// Ends the threads, switches force off, and then switches the devices off.
     void deactivate();
     std::string explain(int device) const { return devices_->explain(device); }
-    /// Stops the devices when the device host itself is about to die. Whether a manufacturer's
-    /// library can be called from a signal handler is unknown, but there is no other means.
+    /// Stops the devices when the device host itself is about to die. It is unknown whether a
+    /// manufacturer's library can be called from a signal handler, but there is no other way.
     void stop_at_death() noexcept {
         if (devices_->active() && devices_->can_stop()) devices_->stop();
     }
@@ -62,15 +63,16 @@ class Server {
     std::string backend_;
     std::vector<Place> places_;  // by device
     std::unique_ptr<devices::DeviceGroup> devices_;
-    std::vector<devices::DeviceClaim> claims_;  // while the devices are active
+    std::vector<devices::DeviceClaim> claims_;  // held while the devices are active
     std::vector<devices::Reading> readings_;
     std::vector<Wrench> wrenches_;
-    std::atomic<bool> holding_{false};    // whether the devices may hold a nonzero force
-    uint32_t replied_ = 0;                // SharedPage::replied at the start of this turn
-    bool behind_ = false;                 // whether the program missed the last turn
-    Time turn_time_{0};                   // time of this turn, counted in ticks
-    int64_t turned_ = 0;                  // end of the last turn, monotonic()
-    std::atomic<int64_t> busy_since_{0};  // start of a call to the devices, monotonic(); 0: no call
+    std::atomic<bool> holding_{false};  // whether the devices may hold a nonzero force
+    uint32_t replied_ = 0;              // SharedPage::replied at the start of this turn
+    bool behind_ = false;               // whether the program missed the previous turn
+    Time turn_time_{0};                 // time of this turn, counted in ticks
+    int64_t turned_ = 0;                // time at which the last turn ended, from monotonic()
+    // time at which a call to the devices started, from monotonic(); 0 if there is no call
+    std::atomic<int64_t> busy_since_{0};
     std::atomic<bool> watching_{false};
     std::thread serving_;
     std::thread watcher_;

@@ -1,4 +1,4 @@
-// Makes boxes and tables for the scenes of benches.
+// Makes boxes and tables for the scenes of the benchmarks.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ inline scene::Body box(const std::string& name, const Vec3& size, const Vec3& po
     return body;
 }
 
-/// A fixed table with its top at z = 0.
+/// Returns a fixed table with its top at z = 0.
 inline scene::Body table(double width, double friction) {
     scene::Body body = box("table", {width, width, 0.1}, {0, 0, -0.05}, friction);
     body.fixed = true;

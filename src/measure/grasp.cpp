@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array kCalmList{100,  200,  300,  400,  500,  600,  800, 1000,
                                1500, 2000, 3000, 4000, 5000, 6000, 8000};
-constexpr double kLastSeconds = 3;  // end of the hold that is judged, once all has settled [s]
+constexpr double kLastSeconds = 3;  // the end of the hold, which is judged once all has settled [s]
 using model::kGravity;
 
 double degrees(double rad) {
@@ -31,8 +31,8 @@ BenchSetup with(BenchSetup setup, double k, Fingering fingering = Fingering::ide
     return setup;
 }
 
-/// Peak force of a spring of stiffness K that acts continuously, without sampling: the lower bound
-/// of the kick [N].
+/// Returns the peak force of a spring of stiffness K that acts continuously, without sampling,
+/// which is the lower bound of the kick [N].
 double perfect_peak(const BenchSetup& setup, double speed) {
     const double h = 1e-6;
     const double mass = 0.075;
@@ -54,9 +54,9 @@ double perfect_peak(const BenchSetup& setup, double speed) {
     return peak;
 }
 
-/// Mean of the normal forces along the grasp axis, by statics [N]. Pads keep the block upright;
-/// between two points it turns until the line between the contacts is parallel to the line between
-/// the targets.
+/// Returns the mean of the normal forces along the grasp axis, from statics [N]. Pads keep the
+/// block upright. Between two points, the block turns until the line between the contacts is
+/// parallel to the line between the targets.
 double closed_form_grip(const BenchSetup& setup) {
     if (setup.settings.proxy.kind == scene::ProxyKind::rigid) return press_force(setup);
     const hand::HandSpec hand = grasp_hand(setup);
@@ -64,13 +64,13 @@ double closed_form_grip(const BenchSetup& setup) {
     const Vec3 contacts = off + Vec3(kBlockSize, 0, 0);
     const Vec3 targets = off + Vec3(kBlockSize - 2 * setup.squeeze, 0, 0);
     const double slant =
-        kBlockSize / contacts.norm();  // cosine of the angle between axis and normal
+        kBlockSize / contacts.norm();  // cosine of the angle between the grasp axis and the normal
     BenchSetup along = setup;
     along.squeeze = (contacts.norm() - targets.norm()) / 2;
     return slant * slant * press_force(along);
 }
 
-/// Figures that describe the setup, without results yet.
+/// Returns figures that contain only the setup, without results.
 GraspFigures described(const BenchSetup& base) {
     const frame::Settings& settings = base.settings;
     GraspFigures out;
@@ -141,7 +141,7 @@ bool calm_wall(const BenchSetup& setup) {
 KickFigures measure_kick(BenchSetup setup, double speed) {
     hand::HandSpec hand = wall_hand(setup);
     const double way = kStartGap + setup.squeeze;
-    // first a wait, because real devices raise their force slowly
+    // wait first, because real devices raise their force slowly
     hand.script = {{"wait", 0.25, {}, Vec3::Zero(), false},
                    {"press", way / speed, {}, {way, 0, 0}, true},
                    {"stay", 1, {}, Vec3::Zero(), false},
@@ -169,7 +169,7 @@ KickFigures measure_kick(BenchSetup setup, double speed) {
                 first_depth = depth;
             } else if (ticks_since_touch == 1) {
                 first_depth =
-                    std::max(first_depth, depth);  // reached while the first force was held
+                    std::max(first_depth, depth);  // depth reached while the first force was held
             }
         } else {
             out.leave_pull_n = std::max(out.leave_pull_n, -push);
@@ -229,7 +229,7 @@ double measure_torsion_limit(const BenchSetup& base) {
     analysis::GraspTrace trace(1, setup.settings.tick());
     const double begin = bench.driver().phases()[kHold].start + 1;
     const double limit = torsion_limit(setup);
-    // rises from 0.5 to 1.2 times the limit
+    // the torque rises from 0.5 to 1.2 times the limit
     const auto torque_at = [&](double now) { return limit * (0.5 + 0.1 * (now - begin)); };
     double let_go = 0;
     size_t start = 0;

@@ -1,5 +1,5 @@
-// The command `dihaptic bench grasp`: measures how calmly two fingers hold a block, and related
-// figures of coupling and devices. docs/measures.md defines the figures.
+// Implements the command `dihaptic bench grasp`, which measures how calmly two fingers hold a
+// block, and related figures of the coupling and the devices. docs/measures.md defines the figures.
 #pragma once
 
 #include <functional>
@@ -81,7 +81,7 @@ struct GraspFigures {
     contact::Solver solver{};
     scene::ProxyKind proxy{};
     frame::PointFriction point_friction{};
-    std::string damping;  ///< default damping, as a multiple of K
+    std::string damping;  ///< default damping of the coupling, as a multiple of K
     double mass = 0;      ///< [kg]
     double friction = 0;
     double rate = 0;  ///< [Hz]
@@ -92,7 +92,7 @@ struct GraspFigures {
     double wall_k = 0, wall_k_delay = 0, wall_k_premium = 0;
     double torque_turn_deg = 0;
     double torque_turn_after_deg = 0;
-    /// For soft fingertips; unset if the proxy has no torsion.
+    /// Only for soft fingertips; unset if the proxy has no torsional friction.
     std::optional<double> torsion_limit_ratio;
     std::vector<KickFigures> kick;
     double drag_n = 0;
@@ -125,37 +125,42 @@ struct GraspFigures {
     }
 };
 
-/// Measures one lift and hold, with setup.settings.coupling.stiffness.
+/// Measures one lift and hold, using setup.settings.coupling.stiffness.
 HoldFigures measure_hold(const BenchSetup& setup);
-/// Measures one lift and hold in another scene, whose object weighs as much as the setup's.
+/// Measures one lift and hold in a different scene, in which the object must weigh as much as in
+/// the setup.
 HoldFigures measure_hold(const BenchSetup& setup, const scene::Scene& scene);
-/// `grip_slack`: share of the grip that the device's friction may absorb.
+/// Whether the hold is calm. `grip_slack`: fraction of the grip force that the device's friction
+/// may absorb.
 bool calm_grasp(const HoldFigures& hold, double grip_slack = 0);
-/// Whether one finger that is pressed 15 mm into a fixed wall stays calm.
+/// Whether the force stays calm when one finger is pressed 15 mm into a fixed wall.
 bool calm_wall(const BenchSetup& setup);
-/// Measures touching a wall at a speed, and leaving it.
+/// Measures the forces when a finger touches a wall at the given speed and leaves it again.
 KickFigures measure_kick(BenchSetup setup, double speed);
-/// Peak handle force on a free minimum-jerk path of 20 cm with a peak of 0.5 m/s [N].
+/// Returns the peak force on a handle in free minimum-jerk movement over 20 cm, with a peak speed
+/// of 0.5 m/s [N].
 double measure_drag(const BenchSetup& setup);
-/// Turn caused by a torque of 0.02 N*m for 0.2 s in the hold: at the torque's end, and 1 s later
-/// [deg].
+/// Returns the rotation caused by a torque of 0.02 N*m that acts for 0.2 s during the hold: at the
+/// end of the torque, and 1 s later [deg].
 std::pair<double, double> measure_torque(const BenchSetup& setup);
 
-/// Moment about the grasp axis that soft contacts of radius r can bear when fingers hold the block
-/// at the closed form's grip: sum of mu r N sqrt(1 - (T / (mu N))^2), with T half the weight [N*m].
+/// Returns the moment about the grasp axis that soft contacts of radius r can bear when the fingers
+/// hold the block with the closed-form grip force: sum of mu r N sqrt(1 - (T / (mu N))^2), where T
+/// is half the weight [N*m].
 double torsion_limit(const BenchSetup& setup);
-/// Torque about the grasp axis, rising slowly in the hold, at which the block turns away, as a
-/// multiple of torsion_limit().
+/// Returns the torque about the grasp axis at which the block starts to turn, as a multiple of
+/// torsion_limit(). The torque rises slowly during the hold.
 double measure_torsion_limit(const BenchSetup& setup);
-/// Largest turn about the grasp axis in the hold under a torque of `share` times torsion_limit()
-/// [deg].
+/// Returns the largest rotation about the grasp axis during the hold, under a torque of `share`
+/// times torsion_limit() [deg].
 double measure_soft_turn(const BenchSetup& setup, double share);
 
-/// Highest K of the list that is calm, as are all below it; 0 if there is none.
+/// Returns the highest K in the list that is calm and below which every other K is calm too; 0 if
+/// there is none.
 double highest_calm(const std::function<bool(double k)>& calm);
 
 using Progress = std::function<void(const std::string& what, double share)>;
-/// Measures all figures. `setup` gives solver, coupling, mass, friction and rate.
+/// Measures all figures. `setup` determines solver, coupling, mass, friction and rate.
 GraspFigures bench_grasp(const BenchSetup& setup, const Progress& progress);
 
 std::string to_json(const GraspFigures& figures);

@@ -18,7 +18,7 @@ scene::Finger pad(const std::string& name, double friction) {
     return out;
 }
 
-/// Blocks in rows behind the held block, out of the fingers' way.
+/// Adds blocks in rows behind the held block, where they are out of the fingers' way.
 void add_extra_blocks(scene::Scene& scene, int count, double friction) {
     for (int i = 0; i < count; ++i) {
         const double pitch = 0.05;
@@ -32,7 +32,7 @@ void add_extra_blocks(scene::Scene& scene, int count, double friction) {
     }
 }
 
-/// The setup's devices, with the imperfections of its row.
+/// Returns the devices of the setup, with the imperfections of the setup's row.
 rig::Rig devices_of(const BenchSetup& setup, const std::vector<std::string>& fingers) {
     rig::Rig rig = rig::simulated_rig(fingers);
     for (size_t i = 0; i < fingers.size(); ++i) {
@@ -62,7 +62,7 @@ devices::simulated::Options simulated_options(const rig::Device& device) {
 }
 
 double press_force(const BenchSetup& setup) {
-    // F = x k (a + b F) / (k + a + b F), where the hand's stiffness a grows by b per newton
+    // F = x k (a + b F) / (k + a + b F), where the stiffness of the hand is a + b F
     const double k = setup.settings.coupling.stiffness;
     const double a = setup.impedance.stiffness;
     const double b = setup.impedance.stiffness_per_force;

@@ -18,15 +18,17 @@ namespace dihaptic::measure {
 namespace {
 
 using model::kGravity;
-constexpr double kHandSpread = 3;   // ratio of impedances: firm to usual hand, usual to loose
-constexpr double kGripShare = 0.4;  // grip over the weaker device's peak force
-/// Grip including the weight, over the weaker device's continuous force: hot motors get less force,
-/// and a hold that shook for this reason could not be calm with any setting.
+constexpr double kHandSpread = 3;   // impedance ratio of firm to usual and of usual to loose hand
+constexpr double kGripShare = 0.4;  // grip force as a fraction of the weaker device's peak force
+/// Grip force, including the weight, as a fraction of the weaker device's continuous force: hot
+/// motors get less force, and a hold that shook for this reason could not be made calm by any
+/// setting.
 constexpr double kGripForLong = 0.8;
-constexpr double kNotMargin = 1.5;  // ratio of TuneResult::stiffer to the proposal, in stiffness
-constexpr double kAsStiff =
-    0.95;  // share of the greatest stiffness that is enough if it saves damping
-constexpr int kBisections = 3;  // bisections between two stiffnesses of the map
+constexpr double kNotMargin =
+    1.5;  // ratio of the stiffness of TuneResult::stiffer to that of the proposal
+constexpr double kAsStiff = 0.95;  // a row with this fraction of the greatest stiffness is stiff
+                                   // enough if its damping is lower
+constexpr int kBisections = 3;     // number of bisections between two stiffnesses on the map
 constexpr std::array kAllBurdens{Burden::none, Burden::delay, Burden::light, Burden::loose,
                                  Burden::firm};
 
@@ -35,9 +37,9 @@ bool dual(const TuneSetup& setup) {
            setup.settings.proxy.kind == scene::ProxyKind::rigid;
 }
 
-/// Calls `work(i)` for every i below `count`, on several threads, and on this thread `done(n)` with
-/// the number of finished calls. Each result belongs to its i, so the order of calls makes no
-/// difference.
+/// Calls `work(i)` for every i below `count`, on several threads. Calls `done(n)` on this thread,
+/// where n is the number of calls that have finished. Each result belongs to its i, so the order of
+/// the calls makes no difference.
 template <class Work, class Done>
 void in_parallel(size_t count, unsigned threads, const std::atomic<bool>& stop, const Work& work,
                  const Done& done) {
@@ -77,12 +79,13 @@ Verdict judge(const TuneSetup& setup, const TunePoint& point, Burden burden) {
     double friction = 0;
     for (const rig::Device& device : setup.devices)
         friction = std::max(friction, simulated_options(device).friction);
-    // a device's friction absorbs part of the hand's force, in either direction
+    // a device's friction absorbs part of the hand's force, whichever way the hand moves
     if (calm_grasp(hold, friction / setup.grip)) return Verdict::calm;
     return hold.held ? Verdict::shaking : Verdict::dropped;
 }
 
-/// Judges points: first all points without a burden, then the calm ones under each burden.
+/// Judges points: first all points without a burden, then the points that were calm, under each of
+/// the burdens.
 void judge_all(const TuneSetup& setup, std::vector<TunePoint>& points,
                const std::atomic<bool>& stop, const std::function<void(double)>& share) {
     const auto n = static_cast<double>(points.size());
@@ -109,7 +112,7 @@ void judge_all(const TuneSetup& setup, std::vector<TunePoint>& points,
         });
 }
 
-/// Rounded down to two digits, as people usually write numbers in files.
+/// Rounds down to two significant digits, as people usually write numbers in files.
 double rounded_down(double k) {
     const double unit = std::pow(10, std::floor(std::log10(k)) - 1);
     return std::floor(k / unit * (1 + 1e-12)) * unit;
@@ -119,7 +122,7 @@ double one_digit_less(double k) {
     return rounded_down(k * 0.99);
 }
 
-/// A row of the map that reaches the highest K, with its last good and its first bad stiffness.
+/// A row of the map that reaches the highest K, with its last good stiffness and its first bad one.
 struct Bracket {
     double c;
     double smoothing;
@@ -145,7 +148,8 @@ std::vector<Bracket> best_rows(const TuneSetup& setup, const TuneResult& result)
     return rows;
 }
 
-/// Reports the progress of a part as progress of the whole, between `from` and `to`.
+/// Returns a function that reports the progress of one part as progress between `from` and `to` of
+/// the whole.
 std::function<void(double)> part_of(const Progress& progress, const char* what, double from,
                                     double to) {
     return [&progress, what, from, to](double share) {
@@ -153,7 +157,7 @@ std::function<void(double)> part_of(const Progress& progress, const char* what, 
     };
 }
 
-/// Narrows the gap between each row's last good and first bad stiffness.
+/// Narrows the gap between the last good stiffness and the first bad stiffness of each row.
 void bisect(const TuneSetup& setup, std::vector<Bracket>& rows, const std::atomic<bool>& stop,
             const Progress& progress) {
     for (int i = 0; i < kBisections && !stop; ++i) {
@@ -173,8 +177,8 @@ void bisect(const TuneSetup& setup, std::vector<Bracket>& rows, const std::atomi
     }
 }
 
-/// The least damped row (damping rises from row to row) of those about as stiff as the stiffest,
-/// since a damper is felt at every touch.
+/// Returns the row with the least damping out of those that are about as stiff as the stiffest row,
+/// because damping is felt at every touch. Damping must increase from row to row.
 const Bracket& least_damped(const std::vector<Bracket>& rows) {
     const double stiffest =
         std::max_element(rows.begin(), rows.end(), [](const Bracket& a, const Bracket& b) {
@@ -184,8 +188,8 @@ const Bracket& least_damped(const std::vector<Bracket>& rows) {
                          [&](const Bracket& row) { return row.good >= kAsStiff * stiffest; });
 }
 
-/// The highest K that is calm with margin, searched downward in steps of the second digit, because
-/// calm and shaking may alternate; at least the K that is calm on the map.
+/// Returns the highest K that is calm with margin, or at least the K that is calm on the map.
+/// Searches downward in steps of the second digit, because calm and shaking values may alternate.
 TunePoint stiffest_calm(const TuneSetup& setup, const Bracket& row, const std::atomic<bool>& stop,
                         const Progress& progress) {
     const auto judged = [&](double k) {
@@ -261,7 +265,7 @@ BenchSetup hold_setup(const TuneSetup& setup, const TunePoint& point, Burden bur
         out.impedance.damping *= factor;
         out.impedance.stiffness_per_force *= factor;
     }
-    // hands of any stiffness grip with the same force, and lift to the same height
+    // hands of any stiffness use the same grip force, and lift to the same height
     const double k_hand = out.impedance.stiffness + out.impedance.stiffness_per_force * setup.grip;
     out.squeeze = model::series_spring_stretch(setup.grip, k_hand, point.k);
     out.lift += model::series_spring_stretch(out.mass * kGravity / 2, k_hand, point.k);

@@ -1,6 +1,6 @@
-// The command `dihaptic tune`: finds the stiffness, damping and smoothing that hold a block calmly
-// on a given device in a given hand, and the highest stiffness that does so under each of the
-// changes of setup listed below (docs/measures.md).
+// Implements the command `dihaptic tune`, which finds the stiffness, damping and smoothing with
+// which a given device in a given hand holds a block calmly, and the highest stiffness that is
+// still calm under each of the burdens listed below (docs/measures.md).
 #pragma once
 
 #include <array>
@@ -13,19 +13,19 @@
 
 namespace dihaptic::measure {
 
-/// Result of a hold, judged as in `bench grasp`: offset fingers, no tremor.
+/// Result of a hold with offset fingers and no tremor, judged as in `bench grasp`.
 enum class Verdict { calm, shaking, dropped };
 constexpr auto enum_names(Verdict) {
     return std::array{"calm", "shaking", "dropped"};
 }
 
-/// Changes of the setup that a proposal must withstand, besides the setup itself.
+/// Changes to the setup under which a proposal must be calm, in addition to the unchanged setup.
 enum class Burden {
     none,
     delay,  ///< forces act one tick later
-    light,  ///< a block of 10 g in place of 100 g
-    loose,  ///< a hand of a third of the stiffness and damping
-    firm,   ///< a hand of three times the stiffness and damping
+    light,  ///< the block weighs 10 g instead of 100 g
+    loose,  ///< the hand has a third of the usual stiffness and damping
+    firm,   ///< the hand has three times the usual stiffness and damping
 };
 constexpr auto enum_names(Burden) {
     return std::array{"as it is", "delay", "10 g", "loose hand", "firm hand"};
@@ -34,22 +34,23 @@ constexpr size_t kBurdens = 5;
 
 struct TuneSetup {
     frame::Settings settings;
-    std::vector<rig::Device> devices;  ///< simulated devices of thumb and index
+    std::vector<rig::Device> devices;  ///< simulated devices of thumb and index finger
     hand::Impedance hand;
-    double grip = 0;  ///< grip force with which the block is held [N]
-    // grid of the search
+    double grip = 0;  ///< grip force with which the hand holds the block [N]
+    // grid for the search
     std::vector<double> stiffness;  ///< rising [N/m]
     std::vector<double> damping;    ///< rising [N*s/m]
     std::vector<double> smoothing;
-    unsigned threads = 0;  ///< 0: one per processor; results do not depend on it
+    unsigned threads = 0;  ///< 0: one per processor; the results do not depend on it
 };
 
-/// Sets up the search for two fingers of a rig, on the usual grid. Throws Error when there are
-/// fewer than two, or when their devices are not simulated.
+/// Sets up the search on the usual grid for two fingers of a rig. Throws Error when there are fewer
+/// than two fingers, or when their devices are not simulated.
 TuneSetup tune_setup(const rig::Rig& rig, const std::vector<std::string>& fingers,
                      const frame::Settings& settings, const hand::Impedance& hand);
 
-/// Verdicts by burden; the other burdens are measured only if `none` is calm.
+/// Verdicts, one for each burden. Other burdens than `none` are measured only if the point is calm
+/// without a burden.
 struct Verdicts {
     std::array<std::optional<Verdict>, kBurdens> all;
 
@@ -84,10 +85,10 @@ struct TunePoint {
 };
 
 struct TuneResult {
-    /// Points by smoothing, then damping, then stiffness.
+    /// Points, ordered by smoothing, then damping, then stiffness.
     std::vector<TunePoint> map;
     std::optional<TunePoint> proposal;
-    /// A point 1.5 times as stiff as the proposal, to show what limits it.
+    /// A point 1.5 times as stiff as the proposal, which shows what limits the stiffness.
     std::optional<TunePoint> stiffer;
     bool interrupted = false;
 
@@ -99,21 +100,22 @@ struct TuneResult {
     }
 };
 
-/// The setup of a hold at one point on the map.
+/// Returns the setup for a hold at one point on the map.
 BenchSetup hold_setup(const TuneSetup& setup, const TunePoint& point, Burden burden);
 
 TuneResult tune(const TuneSetup& setup, const std::atomic<bool>& stop, const Progress& progress);
 
-/// Highest K of a row of the map (one damping and smoothing) that is calm, both without and with
-/// the burden, as are all below it; 0 if there is none.
+/// Returns the highest K in a row of the map (one damping and smoothing) that is calm both without
+/// and with the burden, and below which every other K is calm too; 0 if there is none.
 double calm_limit(const TuneResult& result, double damping, double smoothing, Burden burden);
 
 std::string to_json(const TuneResult& result, const TuneSetup& setup);
 std::string to_table(const TuneResult& result, const TuneSetup& setup);
-/// The proposal as settings, in the format of Dihaptic's files.
+/// Returns the proposal as settings, in the format of Dihaptic's files.
 std::string settings_block(const TuneResult& result, const TuneSetup& setup);
 
-/// The map at the proposal's smoothing, as a picture (SVG), drawn in tune_map.cpp.
+/// Returns a picture (SVG) of the map at the smoothing of the proposal; implemented in
+/// tune_map.cpp.
 std::string tune_map(const TuneResult& result, const TuneSetup& setup, const std::string& title);
 
 }  // namespace dihaptic::measure

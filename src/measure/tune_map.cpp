@@ -1,6 +1,6 @@
-// Draws the map of a search: stiffness to the right, damping upward, one cell per setting. Blue:
-// calm, orange: shaking, grey: fell; each also has a mark, for colour-blind readers and
-// black-and-white printers.
+// Draws the map of a search: stiffness increases to the right, damping upward, and there is one
+// cell per setting. Calm cells are blue, shaking ones orange, and those where the block fell grey.
+// Each cell also has a mark, for colour-blind readers and black-and-white printers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ void dot(Picture& picture, double x, double y) {
                  "#ffffff");
 }
 
-/// The burdens that a point does not withstand, as one letter each.
+/// Returns one letter for each burden that a point does not withstand.
 std::string lacking(const TunePoint& point) {
     std::string out;
     if (!point.calm(Burden::delay)) out += 'D';
@@ -63,7 +63,8 @@ void draw_point(Picture& picture, double x, double y, const TunePoint& point) {
     }
 }
 
-/// Position of a value among rising values, as a real index, interpolated by `scale`.
+/// Returns the fractional index at which a value lies among ascending `values`, interpolated after
+/// transformation by `scale`.
 double index_of(const std::vector<double>& values, double value, double (*scale)(double)) {
     const auto above = std::upper_bound(values.begin(), values.end(), value);
     if (above == values.begin()) return 0;
@@ -80,7 +81,7 @@ double logarithm(double value) {
     return std::log(value);
 }
 
-/// The grid of the map, with a cell for each setting that was tried.
+/// The grid of the map, with a cell for each setting that was judged.
 class Grid {
   public:
     explicit Grid(const TuneSetup& setup) : setup_(setup) {}
@@ -125,7 +126,7 @@ void draw_axes(Picture& picture, const Grid& grid, const TuneSetup& setup) {
                  fmt::format("transform=\"rotate(-90 36 {:g})\"", middle));
 }
 
-/// Draws the program's default damping.
+/// Draws a line for the program's default damping.
 void draw_default_damping(Picture& picture, const Grid& grid, const TuneSetup& setup) {
     std::string line;
     const double per_k = setup.settings.step() / 2;
@@ -155,7 +156,7 @@ void draw_proposal(Picture& picture, const Grid& grid, const TunePoint& proposal
                  "font-weight=\"bold\"");
 }
 
-/// Draws the key to the marks, from `y` down.
+/// Draws the key to the marks, starting at `y` and going down.
 void draw_key(Picture& picture, double y) {
     const double key = kLeft;
     picture.cell(key, y, "#0a5ea8");

@@ -3,7 +3,7 @@
 namespace dihaptic::model {
 namespace {
 
-/// The limit of the process's state under a constant error of 1.
+/// Returns the limit of the process's state when the error is constantly 1.
 double gain(const SingleRate& rate) {
     return rate.learning / (1 - rate.retention);
 }

@@ -1,13 +1,13 @@
-// Trial-by-trial adaptation to a perturbation f, by a single process or by two in parallel:
+// Trial-by-trial adaptation to a perturbation f, by a single process or by two parallel processes:
 //
 //     e(n) = f(n) - x(n)        0 in an error clamp
 //     x(n+1) = A x(n) + B e(n)
 //
-// x is the compensation that the person makes in trial n, before learning from that trial; it has
-// the unit of f. A is the retention and B the learning rate, both in [0, 1]. Two-rate model: x =
-// x_fast + x_slow, each with its own A and B and driven by the same e; A_fast < A_slow, B_fast >
-// B_slow. Sources: Smith, Ghazizadeh and Shadmehr 2006; single-rate for familiar dynamics: Ingram
-// et al. 2011.
+// x(n) is the person's compensation in trial n, before learning from that trial, in the unit of f.
+// A is the retention and B the learning rate, both in [0, 1]. In the two-rate model, x = x_fast +
+// x_slow, where both states are driven by the same e but each has its own A and B, with A_fast <
+// A_slow and B_fast > B_slow. Sources: Smith, Ghazizadeh and Shadmehr 2006; single-rate for
+// familiar dynamics: Ingram et al. 2011.
 #pragma once
 
 #include <span>
@@ -15,12 +15,12 @@
 
 namespace dihaptic::model {
 
-/// A trial for the model. In washout and catch trials the perturbation is 0, and the person
-/// learns from the resulting error. A trial without feedback counts as an error clamp, which
-/// teaches nothing.
+/// A trial, as seen by the model. In washout and catch trials the perturbation is 0, and the person
+/// learns from the resulting error. A trial without feedback counts as an error clamp, from which
+/// nothing is learned.
 struct AdaptationTrial {
     double perturbation = 0;  ///< f
-    bool clamp = false;       ///< the person never sees an error
+    bool clamp = false;       ///< whether the person never sees an error
 };
 
 struct SingleRate {
@@ -39,15 +39,15 @@ struct TwoRateState {
     double output() const { return fast + slow; }
 };
 
-/// Estimates of Smith et al. 2006, as quoted in PMC2585408.
+/// Estimates by Smith et al. 2006, as quoted in PMC2585408.
 inline constexpr TwoRate kSmith2006{.fast = {0.59, 0.21}, .slow = {0.992, 0.02}};
 
-/// The error in a trial for a person with the compensation x.
+/// Returns the error in a trial for a person with compensation x.
 constexpr double adaptation_error(const AdaptationTrial& trial, double x) {
     return trial.clamp ? 0 : trial.perturbation - x;
 }
 
-/// The state after a trial with this error.
+/// Returns the state after a trial with this error.
 constexpr double next(const SingleRate& rate, double x, double error) {
     return rate.retention * x + rate.learning * error;
 }
@@ -55,12 +55,13 @@ constexpr TwoRateState next(const TwoRate& rates, const TwoRateState& state, dou
     return {next(rates.fast, state.fast, error), next(rates.slow, state.slow, error)};
 }
 
-/// Compensation x in each trial, starting at 0.
+/// Returns the compensation x in each trial, starting at 0.
 std::vector<double> compensation(const SingleRate& rate, std::span<const AdaptationTrial> trials);
 std::vector<double> compensation(const TwoRate& rates, std::span<const AdaptationTrial> trials);
 
-/// Fraction of a lasting perturbation that is finally compensated for: G / (1 + G), where G is the
-/// sum of B / (1 - A) over the processes. 1 if a process that learns has a retention of 1.
+/// Returns the fraction of a lasting perturbation that is compensated for in the end: G / (1 + G),
+/// where G is the sum of B / (1 - A) over the processes. Returns 1 if a process that learns has a
+/// retention of 1.
 double asymptote(const SingleRate& rate);
 double asymptote(const TwoRate& rates);
 

@@ -10,8 +10,8 @@ namespace {
 struct Biquad {
     double b0, b1, b2, a1, a2;
 
-    /// Filters once, starting from the steady state at the first sample's value; `gain` is the
-    /// filter's gain at 0 Hz.
+    /// Runs the filter once, starting from the steady state for the first sample's value. `gain` is
+    /// the filter's gain at 0 Hz.
     void run(std::vector<double>& x, double gain) const {
         double x1 = x.front(), x2 = x.front();
         double y1 = gain * x.front(), y2 = y1;
@@ -26,8 +26,8 @@ struct Biquad {
     }
 };
 
-/// Extends a signal at both ends by its point reflection, so that the filter has settled where the
-/// signal starts, and runs both passes.
+/// Runs both passes. The signal is first extended at both ends by its point reflection, so that the
+/// filter has settled by the time the signal starts.
 std::vector<double> both_ways(const std::vector<double>& signal, const Biquad& filter, double gain,
                               size_t pad) {
     if (signal.empty()) return {};

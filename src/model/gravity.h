@@ -1,4 +1,4 @@
-// The gravitational acceleration in models of people and devices.
+// The gravitational acceleration used in models of people and devices.
 #pragma once
 
 namespace dihaptic::model {

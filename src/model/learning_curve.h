@@ -2,9 +2,9 @@
 //
 //     y(n) = y_end + (y_0 - y_end) exp(-n / tau)
 //
-// n counts trials from 0. A single-rate process (model/adaptation.h) under a lasting perturbation f
-// follows the curve exactly, with y_0 = 0, y_end = f B / (1 - A + B) and tau = -1 / ln(A - B), as
-// long as 0 < A - B < 1.
+// where n counts trials from 0. A single-rate process (model/adaptation.h) under a lasting
+// perturbation f follows this curve exactly, with y_0 = 0, y_end = f B / (1 - A + B) and tau = -1 /
+// ln(A - B), as long as 0 < A - B < 1.
 #pragma once
 
 #include <cmath>
@@ -23,8 +23,8 @@ struct LearningCurve {
     }
 };
 
-/// The learning curve of a single-rate process under a perturbation that starts in trial 0 and
-/// stays.
+/// Returns the learning curve of a single-rate process under a perturbation that starts in trial 0
+/// and does not end.
 inline LearningCurve learning_curve(const SingleRate& rate, double perturbation) {
     return {0, perturbation * asymptote(rate), -1 / std::log(rate.retention - rate.learning)};
 }

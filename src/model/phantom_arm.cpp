@@ -14,8 +14,9 @@ double rho(const PhantomLinks& links, const Vec3& q) {
     return links.thigh * std::cos(q[1]) + links.shin * std::sin(q[2]);
 }
 
-/// The parts of a Premium 1.5: a is the shin with the endpoint, c the bar parallel to the thigh, be
-/// the thigh with its motor, and df the bar that drives the shin with its motor [m, kg, kg*m^2].
+/// The parts of a Premium 1.5: a is the shin with the endpoint, c is the bar parallel to the thigh,
+/// be is the thigh with its motor, and df is the bar that drives the shin, with its motor [m, kg,
+/// kg*m^2].
 struct Parts {
     double l1 = 0.215, l2 = 0.170, l3 = 0.0325, l5 = -0.0368, l6 = 0.0527;
     double m_a = 0.0202, m_c = 0.0249, m_be = 0.2359, m_df = 0.1906;
@@ -25,7 +26,7 @@ struct Parts {
     Vec3 I_df{7.11e-4, 0.629e-4, 6.246e-4};
     double I_base_y = 11.87e-4;
 
-    /// Arguments: lengths of thigh and shin relative to those of the Premium 1.5.
+    /// `thigh` and `shin`: lengths relative to those of the Premium 1.5.
     void scale(double thigh, double shin) {
         const auto part = [](double& mass, Vec3& inertia, double by) {
             mass *= by;
@@ -107,11 +108,11 @@ double phantom_determinant(const PhantomLinks& links, const Vec3& q) noexcept {
 Vec3 phantom_joints(const PhantomLinks& links, const Vec3& p_DH) noexcept {
     const double l1 = links.thigh, l2 = links.shin;
     const double out = std::hypot(p_DH.x(), p_DH.z() + l1);  // distance from the turret's axis: rho
-    const double up = p_DH.y() - l2;                         // height from the shoulder
+    const double up = p_DH.y() - l2;                         // height above the shoulder
     // out^2 + up^2 = l1^2 + l2^2 - 2 l1 l2 sin(q2 - q3), with |q2 - q3| within 90 degrees
     const double sine = (l1 * l1 + l2 * l2 - out * out - up * up) / (2 * l1 * l2);
     const double bend = std::asin(std::clamp(sine, -1.0, 1.0));
-    // (out, up) is (l1 - l2 sin(bend), -l2 cos(bend)) turned by q2, where bend = q2 - q3
+    // (out, up) is (l1 - l2 sin(bend), -l2 cos(bend)) rotated by q2, where bend = q2 - q3
     const double thigh =
         std::atan2(up, out) - std::atan2(-l2 * std::cos(bend), l1 - l2 * std::sin(bend));
     return {std::atan2(p_DH.x(), p_DH.z() + l1), thigh, thigh - bend};

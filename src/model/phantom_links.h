@@ -1,4 +1,4 @@
-// The lengths of a PHANToM Premium's links.
+// The link lengths of a PHANToM Premium.
 #pragma once
 
 #include "base/field.h"

@@ -23,7 +23,7 @@ double sigmoid_at(const Psychometric& f, double x) {
     return kUnmeasured;
 }
 
-/// The level at which the sigmoid equals F, in (0, 1).
+/// Returns the level at which the sigmoid equals F, where F is in (0, 1).
 double sigmoid_inverse(const Psychometric& f, double F) {
     switch (f.sigmoid) {
         case Sigmoid::normal:
@@ -61,7 +61,7 @@ double Psychometric::sd() const {
             return threshold * std::sqrt(std::tgamma(1 + 2 / shape) - mean * mean);
         }
         case Sigmoid::weibull_log10:
-            // the logarithm of an exponential variable has the standard deviation pi / sqrt 6
+            // the logarithm of an exponential variable has a standard deviation of pi / sqrt 6
             return std::numbers::pi / (std::sqrt(6.0) * std::numbers::ln10 * shape);
     }
     return kUnmeasured;

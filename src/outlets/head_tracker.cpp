@@ -12,7 +12,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr Seconds kSearch{0.3};  // between checks of whether to end the thread
+constexpr Seconds kSearch{0.3};  // how often the thread checks whether it has to end
 constexpr Seconds kWait{0.1};
 
 double size_of(StreamUnit unit) {
@@ -27,7 +27,7 @@ double size_of(StreamUnit unit) {
     return 1;
 }
 
-/// Number of a head's values in a sample.
+/// Number of values per sample that describe a head.
 size_t values_of(const TrackedHead& head) {
     return head.quaternion == StreamRotation::none ? 3 : 7;
 }
@@ -45,7 +45,7 @@ std::optional<HeadPose> head_pose(const TrackedHead& head, std::span<const float
         R_ST = head.quaternion == StreamRotation::wxyz
                    ? Quat(value(3), value(4), value(5), value(6))
                    : Quat(value(6), value(3), value(4), value(5));
-        constexpr double kOff = 0.1;  // larger deviations from length 1 are invalid
+        constexpr double kOff = 0.1;  // largest deviation of a valid quaternion's length from 1
         if (std::abs(R_ST.norm() - 1) > kOff) return std::nullopt;
         R_ST.normalize();
     }

@@ -1,14 +1,14 @@
-// HeadTracker gives the head position of a person before a screen, which the laboratory's tracker
-// sends as a stream of the Lab Streaming Layer. Objects in the picture can then keep
-// their positions in the world as the head moves. A thread of its own receives the stream, which
-// may appear late, disappear and return.
+// HeadTracker provides the head position of a person in front of a screen. The laboratory's tracker
+// sends this position as a Lab Streaming Layer stream. Objects in the picture can then keep their
+// positions in the world as the head moves. The stream is received by a separate thread; it may
+// appear late, disappear and return.
 //
 // The tracker gives the pose of a body T, worn by the person, in the tracker's frame S; the rig
 // file gives the pose of S in the world W and the position of the eyes in T:
 //
 //     p_WE = X_WS X_ST p_TE        a_W = R_WS R_ST a_T
 //
-// with E the midpoint between the eyes, and a the direction from the left to the right eye.
+// where E is the midpoint between the eyes and a is the direction from the left to the right eye.
 #pragma once
 
 #include <array>
@@ -30,13 +30,14 @@ namespace lsl {
 class Inlet;
 }
 
-/// Unit of a stream's positions.
+/// Unit of the positions in a stream.
 enum class StreamUnit { m, cm, mm };
 constexpr auto enum_names(StreamUnit) {
     return std::array{"m", "cm", "mm"};
 }
 
-/// The data after the position in a sample: a quaternion, its real part first or last, or nothing.
+/// What follows the position in a sample: a quaternion, with its real part first or last, or
+/// nothing.
 enum class StreamRotation { wxyz, xyzw, none };
 constexpr auto enum_names(StreamRotation) {
     return std::array{"wxyz", "xyzw", "none"};
@@ -44,15 +45,15 @@ constexpr auto enum_names(StreamRotation) {
 
 /// A tracked head, as described in the rig file.
 struct TrackedHead {
-    std::string stream;  ///< the stream's name
-    int first = 0;       ///< channel of x, from 0; y, z and the quaternion follow
+    std::string stream;  ///< name of the stream
+    int first = 0;       ///< channel of x, counted from 0; y, z and the quaternion follow
     StreamUnit unit = StreamUnit::m;
     StreamRotation quaternion = StreamRotation::wxyz;
     Vec3 position = Vec3::Zero();  ///< origin of the tracker's frame S, in W [m]
     Vec3 rotation = Vec3::Zero();  ///< rotation of S about W's axes x, then y, then z [rad]
     Vec3 eyes = Vec3::Zero();      ///< p_TE [m]
-    Vec3 along = Vec3::UnitX();    ///< a_T, of any length
-    std::string library;           ///< path of liblsl; empty: found by the system
+    Vec3 along = Vec3::UnitX();    ///< the vector a_T, of any length
+    std::string library;           ///< path of liblsl; if empty, the system finds it
     Place place{};
 
     template <class Visitor>
@@ -84,12 +85,12 @@ struct TrackedHead {
     }
 };
 
-/// Position of the eyes, in the world.
+/// Position of the eyes in the world.
 struct HeadPose {
     Vec3 eyes = Vec3::Zero();    ///< midpoint between the eyes [m]
-    Vec3 along = Vec3::UnitX();  ///< from the left to the right eye, of length 1
+    Vec3 along = Vec3::UnitX();  ///< unit vector from the left to the right eye
     Quat R_WT = Quat::Identity();
-    bool seen = false;  ///< whether the tracker sees the head; otherwise this is the last pose
+    bool seen = false;  ///< whether the tracker sees the head; if not, this is the last known pose
 };
 
 class HeadTracker {
@@ -100,17 +101,17 @@ class HeadTracker {
     HeadTracker(const HeadTracker&) = delete;
     HeadTracker& operator=(const HeadTracker&) = delete;
 
-    /// From one thread: the newest pose; nullopt before the first.
+    /// Returns the newest pose, or nullopt before the first one. To be called from only one thread.
     std::optional<HeadPose> newest();
 
     struct Told {
         std::string what;
         bool problem = false;
     };
-    /// Events since the last call: the stream was found, or the head is not seen.
+    /// Returns the events since the last call: the stream was found, or the head is no longer seen.
     std::vector<Told> take_told();
 
-    /// A head counts as not seen after this time without a sample [s].
+    /// After this time without a sample, the head counts as not seen [s].
     static constexpr double kSilence = 0.5;
 
   private:
@@ -118,12 +119,12 @@ class HeadTracker {
     void receive();
     /// Receives samples until the stream is lost, then throws Error.
     void follow(lsl::Inlet& inlet);
-    /// Notes that the head is no longer seen; returns whether it was seen before.
+    /// Notes that the head is no longer seen; returns whether it was seen until now.
     bool lose();
     void tell(std::string what, bool problem);
 
     TrackedHead head_;
-    std::optional<HeadPose> last_;  // owned by the thread
+    std::optional<HeadPose> last_;  // used only by the thread
     Latest<std::optional<HeadPose>> newest_;
     std::mutex guard_;
     std::vector<Told> told_;
@@ -131,8 +132,9 @@ class HeadTracker {
     std::thread thread_;
 };
 
-/// The pose in a sample; `values` starts at the head's first channel. nullopt if there is none: a
-/// tracker that does not see the body sends values that are not numbers, or not a rotation.
+/// Returns the head pose in a sample; `values` starts at the head's first channel. Returns nullopt
+/// if the sample has no pose: when a tracker does not see the body, it sends values that are not
+/// numbers or not a rotation.
 std::optional<HeadPose> head_pose(const TrackedHead& head, std::span<const float> values);
 
 }  // namespace dihaptic::outlets

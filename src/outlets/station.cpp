@@ -8,14 +8,14 @@
 namespace dihaptic::outlets {
 namespace {
 
-/// The header of a tick's values in the ring.
+/// Precedes the values of each tick in the ring.
 struct Head {
     Clock::rep at;
     int32_t code;
 };
 
 constexpr auto kTend = std::chrono::milliseconds(1);
-/// Capacity of the ring [ticks]: a few seconds, for an outlet that hangs.
+/// Capacity of the ring [ticks]: holds a few seconds of ticks if an outlet hangs.
 constexpr size_t kTicks = 8192;
 
 }  // namespace

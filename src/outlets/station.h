@@ -1,6 +1,6 @@
-// The station passes event codes and samples from the servo to the outlets: the servo's thread
-// pushes them into a ring and continues; the station's own thread calls the outlets. A code is sent
-// within a millisecond, and outlets that accept a time get that of its tick.
+// Station passes event codes and samples from the servo to the outlets: the servo's thread pushes
+// them into a ring and continues, and the station's own thread calls the outlets. A code is sent
+// within a millisecond. Outlets that accept a time receive the time of the code's tick.
 #pragma once
 
 #include <atomic>
@@ -14,33 +14,34 @@ namespace dihaptic::outlets {
 
 class Station {
   public:
-    /// Opens all outlets. Throws Error when one cannot be opened.
+    /// Opens all outlets. Throws Error when an outlet cannot be opened.
     Station(const std::vector<OutletConfig>& outlets, const About& about);
     ~Station();
     Station(const Station&) = delete;
     Station& operator=(const Station&) = delete;
 
-    /// Called in the tick: sends its event code (0: none) and a value for each channel. Neither
-    /// waits nor allocates.
+    /// Called in the tick: sends the tick's event code (0 if there is none) and one value for each
+    /// channel. Neither waits nor allocates memory.
     void send(int code, std::span<const float> values) noexcept;
-    /// Called in the tick: the trigger received since the last call, 1 to 255; 0: none.
+    /// Called in the tick: returns the trigger (1 to 255) received since the last call, or 0 if
+    /// none was received.
     int take_trigger() noexcept { return trigger_.exchange(0, std::memory_order_relaxed); }
-    /// Whether any outlet accepts samples; if not, `values` may be empty.
+    /// Whether any outlet accepts samples. If not, the `values` passed to send() may be empty.
     bool wants_samples() const { return samples_; }
 
-    /// Sends remaining data, and closes the outlets. Returns the failures, in words: an entry for
-    /// each outlet that failed, and one if ticks were lost.
+    /// Sends the remaining data and closes the outlets. Returns a message for each outlet that
+    /// failed, and another if ticks were lost.
     std::vector<std::string> finish();
 
   private:
     struct Line {
         std::string kind;
-        std::unique_ptr<Outlet> outlet;  // null after a failure
+        std::unique_ptr<Outlet> outlet;  // null once the outlet has failed
         bool samples;
     };
     void run();
     void drain();
-    /// Calls an outlet; an outlet that throws is not called again.
+    /// Calls a function of an outlet; once an outlet has thrown, it is not called again.
     template <class Call>
     void call(Line& line, const Call& call);
 

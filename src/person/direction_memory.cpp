@@ -6,7 +6,7 @@
 namespace dihaptic::person {
 namespace {
 
-constexpr double kSameDirection = 0.09;  // closer directions count as one [rad]
+constexpr double kSameDirection = 0.09;  // directions closer than this count as the same [rad]
 
 double angle_between(const Vec3& a, const Vec3& b) noexcept {
     return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -17,7 +17,7 @@ double angle_between(const Vec3& a, const Vec3& b) noexcept {
 Vec3 DirectionMemory::added_to(Vec3 sum, const Vec3& d) const noexcept {
     for (size_t i = 0; i < count_; ++i) {
         const double angle = angle_between(d, taught_[i].d);
-        // the same target, its direction judged with noise
+        // the same target, whose direction is judged with noise
         const double a = angle < kSameDirection ? 0 : angle / width_;
         sum += std::exp(-a * a / 2) * taught_[i].x;
     }

@@ -1,4 +1,5 @@
-// A simulated person's sight: the displayed positions of hand and targets, one visual delay ago.
+// A simulated person's sight: the displayed positions of the hand and the targets, one visual delay
+// ago.
 #pragma once
 
 #include <array>
@@ -12,17 +13,17 @@ namespace dihaptic::person {
 struct Sight {
     int trial = 0;
     int attempt = 0;
-    int phase = 0;             ///< the task's state, recognised by its targets and message
-    Vec3 hand = Vec3::Zero();  ///< middle of the fingers, as displayed [m]
-    bool hand_shown = false;   ///< at least one of the fingers is displayed
-    uint32_t shown = 0;        ///< regions that are shown as targets, one bit each
-    std::array<Vec3, frame::TaskFrame::kMostTargets> target{};  ///< by region, as displayed [m]
+    int phase = 0;             ///< state of the task, recognised by its targets and message
+    Vec3 hand = Vec3::Zero();  ///< displayed middle of the fingers [m]
+    bool hand_shown = false;   ///< whether at least one finger is displayed
+    uint32_t shown = 0;        ///< regions that are shown as targets, one bit per region
+    std::array<Vec3, frame::TaskFrame::kMostTargets> target{};  ///< displayed, by region [m]
 };
 
 class Eyes {
   public:
-    /// `first`: index of the hand's first finger. `fingers`: number of its fingers. `delay`, `tick`
-    /// [s].
+    /// `first`: index of the hand's first finger. `fingers`: number of fingers of the hand.
+    /// `delay`, `tick`: [s].
     Eyes(double delay, size_t first, size_t fingers, double tick)
         : delay_(delay), first_(first), fingers_(fingers), past_(delay, tick) {}
 
@@ -44,7 +45,8 @@ class Eyes {
         }
         past_.add(sight);
     }
-    /// The current sight. Not to be called before the first Frame.
+    /// What the person sees now, i.e. the scene one visual delay ago. Must not be called before the
+    /// first Frame.
     const Sight& sight() const noexcept { return past_.before(delay_); }
 
   private:
@@ -54,7 +56,7 @@ class Eyes {
     Past<Sight> past_;
 };
 
-/// A position as judged by one look; `noise`: SD per axis [m].
+/// A position as perceived in a single look. `noise`: SD per axis [m].
 inline Vec3 look(const Vec3& p, double noise, Random& random) noexcept {
     const Vec3 error(random.normal(), random.normal(), random.normal());
     return p + noise * error;

@@ -1,12 +1,12 @@
 // Adaptation to forces that push the hand as it moves, by the two-rate model (model/adaptation.h).
-// A person expects that a movement along d (unit) with the speed s is pushed by the force
+// A person expects a movement with speed s along the unit vector d to be pushed by the force
 //
 //     f = s F(d)        F = F_fast + F_slow                [N], [N*s/m]
 //
-// and presses against it. F is a vector in space, so that fields across the movement (curl) and
-// along it (viscous) are learned alike; both processes are learned by direction
-// (direction_memory.h). The teaching signal is the felt push (strain.h) per speed, beyond the
-// expected one:
+// and presses against this force. F is a vector in space, so that fields across the movement (curl)
+// and fields along the movement (viscous) are learned alike; both processes learn by direction
+// (direction_memory.h). The teaching signal is the difference between the felt push (strain.h) and
+// the expected push, per speed:
 //
 //     e = sum s f_felt / sum s^2 - F(d)        over the ticks of a reach
 #pragma once
@@ -17,7 +17,7 @@ namespace dihaptic::person {
 
 class ForceMemory {
   public:
-    /// `width`: width of generalisation of both processes [rad].
+    /// `width`: generalisation width of both processes [rad].
     ForceMemory(const model::TwoRate& rates, double width)
         : fast_(rates.fast, width), slow_(rates.slow, width) {}
 
@@ -25,12 +25,12 @@ class ForceMemory {
     Vec3 expected(const Vec3& d) const noexcept {
         return slow_.added_to(fast_.added_to(Vec3::Zero(), d), d);
     }
-    /// Learns from a completed reach. `error`: e [N*s/m].
+    /// Updates the memory after a completed reach. `error`: e [N*s/m].
     void learn(const Vec3& d, const Vec3& error) noexcept {
         fast_.learn(d, error);
         slow_.learn(d, error);
     }
-    /// Applies the effect of a night's sleep (learned.h).
+    /// Applies the effect of a night of sleep (learned.h).
     void sleep() noexcept { fast_.forget(); }
     /// Whether nothing has been learned.
     bool empty() const noexcept { return fast_.empty() && slow_.empty(); }

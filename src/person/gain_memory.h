@@ -1,11 +1,12 @@
 // Adaptation to displays that scale movements, by the single-rate model (model/adaptation.h). A
-// person expects a movement in direction d (unit) to be shown longer by the factor exp(g(d)),
+// person expects the display to lengthen a movement along the unit vector d by the factor
+// exp(g(d)), where
 //
 //     g(d) = sum over k of d_k^2 g_k                        k: the world's axes
 //
-// which for small g_k is the logarithm of |S d| for a scaling S = diag(exp(g_k)). A movement that
-// was shown to go too far by the error e (a logarithm) changes the gains of the axes along which it
-// went, so that g in that direction changes by B e:
+// For small g_k, this is the logarithm of |S d| for a scaling S = diag(exp(g_k)). If the display
+// showed a movement that went too far by the error e (a logarithm), the gains of the axes along
+// which the movement went are changed so that g in that direction changes by B e:
 //
 //     g_k <- A g_k + B e d_k^2 / sum over j of d_j^4
 #pragma once
@@ -23,7 +24,8 @@ class GainMemory {
 
     /// g(d).
     double expected(const Vec3& d) const noexcept { return d.cwiseAbs2().dot(gain_); }
-    /// Learns from a completed movement. `error`: ln(length shown / length wanted).
+    /// Updates the memory after a completed movement. `error`: ln(displayed length / intended
+    /// length).
     void learn(const Vec3& d, double error) noexcept {
         const Vec3 share = d.cwiseAbs2() / d.cwiseAbs2().squaredNorm();
         gain_ = rate_.retention * gain_ + rate_.learning * error * share;

@@ -9,29 +9,29 @@ namespace {
 
 constexpr double kLongestLatency = 0.3;  // [s]
 constexpr double kMuscle = 0.02;         // time constant of grip force [s]
-constexpr double kAimedAbove = 1.1;      // intended load force over the expected weight
+constexpr double kAimedAbove = 1.1;      // ratio of the intended load force to the expected weight
 constexpr double kRise =
-    1.5e-3;  // upward speed of the fingertips at which the object has come off [m/s]
-constexpr double kProbe = 0.1;        // time between increases of the load force [s]
-constexpr double kProbeShare = 0.35;  // an increase, as a share of the expected weight ...
-constexpr double kLeastProbe = 0.3;   // ... but at least this [N]
+    1.5e-3;  // upward speed of the fingertips above which the object counts as lifted off [m/s]
+constexpr double kProbe = 0.1;        // interval between increases of the load force [s]
+constexpr double kProbeShare = 0.35;  // size of an increase, as a share of the expected weight
+constexpr double kLeastProbe = 0.3;   // smallest increase [N]
 constexpr double kStrongest = 40;     // intended load force above which it is not increased [N]
-constexpr double kPeakTime = 0.1;     // duration of peak grip, from lift-off [s]
-constexpr double kPeakDecay = 0.25;   // time constant of its decay [s]
+constexpr double kPeakTime = 0.1;     // time from lift-off until peak grip decays [s]
+constexpr double kPeakDecay = 0.25;   // time constant of the decay of peak grip [s]
 constexpr double kUnload = 0.25;      // duration of the unload phase [s]
-constexpr double kWeighing = 0.3;     // time constant of the felt weight [s]
-constexpr double kCorrection = 0.15;  // time to correct the load force to the felt weight [s]
-constexpr double kWeighed = 0.3;      // time of holding after which a weight is remembered [s]
+constexpr double kWeighing = 0.3;     // time constant of weight perception [s]
+constexpr double kCorrection = 0.15;  // time to adjust the load force to the felt weight [s]
+constexpr double kWeighed = 0.3;      // holding time after which the weight is remembered [s]
 constexpr double kSurprise =
-    1.15;  // grip for the felt load over planned grip at which the person responds
+    1.15;  // ratio of the grip for the felt load to the planned grip that triggers a response
 constexpr double kReplaced =
-    0.7;                        // share of the weight below which something else carries the object
-constexpr double kTrust = 0.1;  // share of the doubt about friction that a lift removes
-constexpr double kReflex = 1.15;        // factor on grip after a slip ...
-constexpr double kStrongestReflex = 2;  // ... and the largest in a hold
-constexpr double kReflexTime = 0.15;    // time after which a slip is a separate one [s]
-constexpr double kDoubt = 0.6;     // least friction inferred from one slip, over the expected one
-constexpr double kMovement = 0.1;  // least integral of a^2 from which a mass is inferred [m^2/s^3]
+    0.7;                        // share of the weight below which the object must rest on something
+constexpr double kTrust = 0.1;  // share of the uncertainty about friction that a lift removes
+constexpr double kReflex = 1.15;        // factor by which a slip increases the grip
+constexpr double kStrongestReflex = 2;  // largest increase by slips in one hold, as a factor
+constexpr double kReflexTime = 0.15;    // time after which another slip is answered separately [s]
+constexpr double kDoubt = 0.6;          // smallest friction inferred from a slip, as a ratio
+constexpr double kMovement = 0.1;  // integral of a^2 from which on a mass is inferred [m^2/s^3]
 
 Vec3 up() {
     return Vec3::UnitZ();
@@ -65,8 +65,8 @@ void Grip::end() noexcept {
     inertial_ = along_ = Vec3::Zero();
 }
 
-/// Remembers the felt weight, if the hold was long enough. A lift also removes some of the doubt
-/// about the surface's friction.
+/// Remembers the felt weight, if the object was held long enough. A lift also removes some of the
+/// uncertainty about the friction of the surface.
 void Grip::remember() noexcept {
     if (!weighed_) return;
     weighed_ = false;
@@ -109,8 +109,8 @@ void Grip::carried() noexcept {
     along_ = Vec3::Zero();
 }
 
-/// Grip force required by a force on the object, with the safety margin. A force along the grasp
-/// axis unloads one of the fingers.
+/// Grip force needed for a force on the object, including the safety margin. A force along the
+/// grasp axis unloads one of the fingers.
 double Grip::needed(const Vec3& force_W, const Vec3& axis) const noexcept {
     const double along = force_W.dot(axis);
     const double across = (force_W - along * axis).norm();
@@ -123,8 +123,8 @@ bool Grip::lost(double now) const noexcept {
 }
 
 void Grip::feel_skin(double now, const Feeling& newest) noexcept {
-    // the newest sample, not felt(): skin_time is the skin's own delay, and touched_ already lags
-    // by latency_
+    // the newest sample instead of felt(), because skin_time is itself the delay of the skin, and
+    // touched_ already lags by latency_
     if (traits_.skin_time > 0 && newest.body == body_ &&
         now - touched_ + latency_ > traits_.skin_time)
         memory().friction = misfelt_ * newest.friction;
@@ -139,8 +139,8 @@ void Grip::answer_slip(double now) noexcept {
     reflex_ = now + kReflexTime;
 }
 
-/// Detects whether the object has come off, needs more load force to come off, or rests on
-/// something again.
+/// Detects that the object has lifted off, that it needs more load force to lift off, or that it
+/// rests on something again.
 void Grip::watch_lift(double now, Strokes& aim) noexcept {
     const double carried = felt().force_W.dot(up());
     if (phase_ == GripPhase::load && felt().rise > kRise) {
@@ -167,7 +167,7 @@ void Grip::weigh(double now, Strokes& aim) noexcept {
     aim.add({Vec3::Zero(), 0, weight_ - aim.goal().load}, now, kCorrection);
 }
 
-/// Accumulates the evidence about the object's mass while it is carried.
+/// While the object is carried, accumulates evidence about its mass.
 void Grip::feel_mass(const Feeling& newest) noexcept {
     if (along_ == Vec3::Zero()) return;
     const double a = newest.acceleration_W.dot(along_);
@@ -175,14 +175,14 @@ void Grip::feel_mass(const Feeling& newest) noexcept {
     moved_ += a * a;
 }
 
-/// Desired grip force of each finger [N]: for the plan's expectation at this load force or, if the
-/// felt load clearly requires more, for that load.
+/// Desired grip force of each finger [N]: the force planned for the expected object at this load
+/// force or, if the felt load clearly requires a larger force, the force for that load.
 double Grip::wanted(double now, double load, const Vec3& axis) const noexcept {
     Vec3 expected = load * up();
     double peak = 1;
     if (phase_ == GripPhase::load) {
         peak = traits_.peak_grip;
-        expected /= kAimedAbove;  // the load aims above the expected weight
+        expected /= kAimedAbove;  // the intended load is larger than the expected weight
     }
     if (phase_ == GripPhase::lifted) {
         expected += inertial_;

@@ -1,6 +1,6 @@
-// A simulated person's grip and lift in the phases of Johansson and Westling (1984): grip force
-// follows a plan that expects a weight and a friction, and touch corrects it a reflex latency
-// later. README.md has the equations.
+// A simulated person's grip and lift, in the phases described by Johansson and Westling (1984): the
+// grip force follows a plan based on the expected weight and friction, and touch corrects the grip
+// force one reflex latency later. README.md has the equations.
 #pragma once
 
 #include <vector>
@@ -13,52 +13,52 @@
 namespace dihaptic::person {
 
 enum class GripPhase {
-    open,     ///< fingers follow the aim
-    preload,  ///< fingers touch and press; load force has not begun
-    ready,    ///< gripped, not lifted
-    load,     ///< grip and load force rise together, until the object comes off
-    lifted,   ///< grip force has a peak at first, then is static
+    open,     ///< the fingers follow the aim
+    preload,  ///< the fingers touch and press; there is no load force yet
+    ready,    ///< the object is gripped, but not being lifted
+    load,     ///< grip and load force rise together until the object lifts off
+    lifted,   ///< grip force has an initial peak, then is constant
     unload,   ///< grip and load force fall together
 };
 
 class Grip {
   public:
-    /// `memory`: for each body of the scene, the knowledge that its appearance suggests.
+    /// `memory`: for each body of the scene, the properties that its appearance suggests.
     Grip(const Traits& traits, std::vector<GripMemory> memory, double tick);
 
     void restart() noexcept;
-    /// Sets this trial's `latency` of reflexes [s]; `strength`: grip force over the right one;
-    /// `misfelt`: felt over true friction, for the skin.
+    /// Sets the values for a trial. `latency`: reflex latency [s]. `strength`: ratio of the grip
+    /// force to the right one. `misfelt`: ratio of the friction felt by the skin to the true one.
     void set(double latency, double strength, double misfelt) noexcept;
 
     GripPhase phase() const { return phase_; }
     bool holds() const { return phase_ != GripPhase::open; }
-    /// Both fingers were just felt to touch; `grip`: force of the hand now [N].
+    /// To be called when both fingers are felt to touch. `grip`: current force of the hand [N].
     void close(double now, double grip) noexcept;
-    /// Begins the load phase, and adds its force to `aim`.
+    /// Begins the load phase, and adds the load force to `aim`.
     void lift(double now, Strokes& aim) noexcept;
     /// Starts to release the object.
     void release(double now, Strokes& aim) noexcept;
-    /// Call when a held object starts moving along `u`; ends with carried().
+    /// To be called when a held object starts to move along `u`; the movement ends with carried().
     void carry(const Vec3& u) noexcept;
-    /// The movement along `u` has ended: the mass felt during it is learned.
+    /// To be called when the movement along `u` has ended: learns the mass felt during it.
     void carried() noexcept;
 
-    /// One tick. `axis`: unit vector from finger to finger.
+    /// Advances by one tick. `axis`: unit vector from finger to finger.
     void tick(double now, const Feeling& felt, const Vec3& axis, Strokes& aim) noexcept;
 
     /// Desired inward force of each finger [N].
     double squeeze() const { return squeeze_; }
-    /// Force on the object that the plan expects to need, beyond the aim's load [N].
+    /// Planned force on the object, in addition to the load force of the aim [N].
     const Vec3& inertial() const { return inertial_; }
-    /// What the appearance of a body suggests.
+    /// The properties that the appearance of a body suggests.
     const GripMemory& look(int body) const { return looks_[static_cast<size_t>(body)]; }
-    /// Recalls what is known of a body, in place of what its appearance suggests.
+    /// Replaces what the appearance of a body suggests with what is known about it.
     void recall(int body, const GripMemory& known) noexcept {
         memory_[static_cast<size_t>(body)] = known;
     }
     const GripMemory& memory(int body) const { return memory_[static_cast<size_t>(body)]; }
-    /// The sensation in this tick: touch one reflex latency ago.
+    /// What is felt in this tick, i.e. the touch one reflex latency ago.
     const Feeling& felt() const { return past_.before(latency_); }
 
   private:
@@ -88,18 +88,18 @@ class Grip {
 
     GripPhase phase_ = GripPhase::open;
     int body_ = 0;
-    double touched_ = 0;    // when both fingers were felt to touch [s]
-    double since_ = 0;      // when the phase began [s]
-    double probe_ = 0;      // when force is added if the load phase has not lifted the object [s]
-    double reflex_ = 0;     // until then a slip counts as the one already answered [s]
-    double hold_ = 0;       // squeeze before the load force acts [N]
+    double touched_ = 0;    // time when both fingers were felt to touch [s]
+    double since_ = 0;      // time when the phase began [s]
+    double probe_ = 0;      // time of the next force increase if the object has not lifted off [s]
+    double reflex_ = 0;     // time until which a slip counts as already answered [s]
+    double hold_ = 0;       // squeeze before there is a load force [N]
     double squeeze_ = 0;    // [N]
     double weight_ = 0;     // weight felt in this hold [N]
-    bool weighed_ = false;  // held long enough for the weight to be remembered
+    bool weighed_ = false;  // whether the hold was long enough to remember the weight
     Vec3 inertial_ = Vec3::Zero();
-    Vec3 along_ = Vec3::Zero();  // direction in which the object is carried; zero: not carried
-    double push_ = 0;            // sum of force times acceleration along that direction
-    double moved_ = 0;           // sum of squared acceleration along that direction
+    Vec3 along_ = Vec3::Zero();  // direction in which the object is carried; zero if it is not
+    double push_ = 0;            // sum of force times acceleration along along_
+    double moved_ = 0;           // sum of squared acceleration along along_
 };
 
 }  // namespace dihaptic::person

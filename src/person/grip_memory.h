@@ -1,4 +1,5 @@
-// A simulated person's knowledge of an object, from its appearance and from earlier lifts.
+// A simulated person's knowledge about an object, gained from its appearance and from earlier
+// lifts.
 #pragma once
 
 #include "base/geometry.h"
@@ -12,19 +13,21 @@ using model::kGravity;
 
 struct GripMemory {
     double weight = 1;      ///< expected weight [N]
-    double friction = 0.5;  ///< expected friction of fingers on the object
-    /// Mass beyond that of the weight, by world axis, learned from carrying the object along that
-    /// axis [kg].
+    double friction = 0.5;  ///< expected friction between the fingers and the object
+    /// Mass in addition to the one that causes the weight, for each world axis, learned from
+    /// carrying the object along that axis [kg].
     Vec3 more_mass = Vec3::Zero();
 
-    /// Force required to move the object, beyond carrying its weight [N].
+    /// Force required to accelerate the object, in addition to the force that supports its weight
+    /// [N].
     Vec3 inertial(const Vec3& acceleration_W) const noexcept {
         return (Vec3::Constant(weight / kGravity) + more_mass).cwiseProduct(acceleration_W);
     }
-    /// Learns from a lift; `felt`: the felt weight [N].
+    /// Updates the memory after a lift. `felt`: the felt weight [N].
     void lifted(double felt, double learning) noexcept { weight += learning * (felt - weight); }
-    /// Learns from carrying the object along the unit vector `u`; `felt`: the felt mass [kg]. Each
-    /// axis learns its part of the error, which is felt minus expected mass.
+    /// Updates the memory after the object was carried along the unit vector `u`. `felt`: the felt
+    /// mass [kg]. The error, i.e. the difference between felt and expected mass, is divided among
+    /// the axes.
     void carried(const Vec3& u, double felt, const model::SingleRate& rate) noexcept {
         const Vec3 part = u.cwiseProduct(u);
         const double error = felt - weight / kGravity - part.dot(more_mass);

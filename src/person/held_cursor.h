@@ -1,5 +1,6 @@
-// How a simulated person interprets a cursor that the display holds: it shows where the hand was at
-// an earlier moment, and the hand's motion since then is only felt.
+// How a simulated person interprets a cursor that the display holds in place: the cursor shows
+// where the hand was at an earlier time, and the person only feels how the hand has moved since
+// then.
 #pragma once
 
 #include <algorithm>
@@ -9,12 +10,12 @@
 
 namespace dihaptic::person {
 
-/// Follows the states of an attempt.
+/// Follows the task states of an attempt.
 class HeldCursor {
   public:
-    /// A moment, and where the hand was felt to be [s], [m].
+    /// A time [s] and the felt position of the hand at that time [m].
     struct Moment {
-        double time = -1;  ///< negative: not in this attempt
+        double time = -1;  ///< negative if it did not occur in this attempt
         Vec3 felt = Vec3::Zero();
     };
 
@@ -22,7 +23,8 @@ class HeldCursor {
     explicit HeldCursor(const std::vector<task::TaskPlan::PlannedState>& states)
         : states_(states), left_(states.size()) {}
 
-    /// Call when a new state is seen. `state`: its index. `now`: its first moment.
+    /// To be called when the person sees a new state. `state`: index of the state. `now`: the time
+    /// when it began.
     void enter(int state, bool new_attempt, const Moment& now) noexcept {
         const bool held = is_held() && !new_attempt;
         if (new_attempt) {
@@ -43,12 +45,12 @@ class HeldCursor {
     bool is_held() const noexcept {
         return state_ >= 0 && states_[static_cast<size_t>(state_)].holds_cursor;
     }
-    /// The moment that a held cursor shows.
+    /// The time and hand position that a held cursor shows.
     const Moment& shown() const noexcept { return shown_; }
 
   private:
     const std::vector<task::TaskPlan::PlannedState>& states_;
-    std::vector<Moment> left_;  // by state: when the hand left it
+    std::vector<Moment> left_;  // for each state, when the hand left it
     Moment shown_;
     int state_ = -1;
 };

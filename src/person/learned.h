@@ -1,9 +1,9 @@
-// What a person takes from one session to the next.
+// What a person retains from one session to the next.
 //
-// Overnight, the fast process of adaptation is forgotten, and the slow one keeps its state: after
-// 24 hours people retained as much of a force field as the slow process of the model had reached in
-// training (Joiner and Smith 2008). That rotations follow the same rule, and that gains and known
-// weights stay as they were, is an assumption.
+// Overnight, the fast process of adaptation is forgotten, and the slow process keeps its state:
+// after 24 hours, people retained as much of a force field as the slow process of the model had
+// learned in training (Joiner and Smith 2008). It is an assumption that rotations follow the same
+// rule, and that gains and known weights stay unchanged.
 #pragma once
 
 #include <string>
@@ -17,17 +17,18 @@
 namespace dihaptic::person {
 
 struct Learned {
-    /// Learned from movements in a state of the task, and recalled in the state of the same name.
+    /// Learned from movements in one task state, and recalled in the state of the same name.
     struct InState {
         std::string state;
         RotationMemory rotation;
         GainMemory gain;
         ForceMemory force;
     };
-    /// Learned about an object, and recalled for a body of the same name that looks equally heavy.
+    /// Learned about one object, and recalled for a body that has the same name and looks equally
+    /// heavy.
     struct OfBody {
         std::string body;
-        double looks = 0;  ///< weight that its appearance suggests [N]
+        double looks = 0;  ///< weight that the object's appearance suggests [N]
         GripMemory memory;
     };
     std::vector<InState> states;

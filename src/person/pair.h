@@ -1,4 +1,5 @@
-// Two simulated people who do a task together, one hand each: each sees and feels only that hand.
+// Two simulated people who do a task together, each with one hand. Each sees and feels only their
+// own hand.
 #pragma once
 
 #include <memory>
@@ -30,7 +31,7 @@ class Pair final : public task::SeeingDriver {
         first_->see(frame);
         second_->see(frame);
     }
-    /// The first person answers for both.
+    /// The first person answers questions for both.
     char do_take_key() noexcept override {
         second_->take_key();
         return first_->take_key();

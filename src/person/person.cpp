@@ -15,29 +15,28 @@ namespace {
 using task::TaskPlan;
 using task::When;
 
-constexpr double kUsualDensity = 1000;  // expected density of objects not yet lifted [kg/m^3]
-constexpr double kReach = 0.03;         // least length of a movement that teaches rotations [m]
-constexpr double kGlance = 0.08;        // share of a reach after which it is corrected ...
-constexpr double kJudged = 0.4;         // ... and after which its error is judged, to learn from
-constexpr double kShortest = 0.2;       // shortest stroke [s]
-constexpr double kSettled = 0.05;       // time after a stroke before its end is judged [s]
-constexpr double kGoodEnough = 4e-3;    // error at the target that needs no correction [m]
+constexpr double kUsualDensity = 1000;  // density expected before the first lift [kg/m^3]
+constexpr double kReach = 0.03;         // shortest movement from which rotations are learned [m]
+constexpr double kGlance = 0.08;        // share of a reach after which the person corrects it
+constexpr double kJudged = 0.4;         // share of a reach after which its error is judged
+constexpr double kShortest = 0.2;       // shortest duration of a stroke [s]
+constexpr double kSettled = 0.05;       // time from a stroke until its end is judged [s]
+constexpr double kGoodEnough = 4e-3;    // distance from the target that is good enough [m]
 constexpr int kMostCorrections = 4;
-constexpr double kWorse = 1.2;     // growth of the error after which a person stops correcting it
-constexpr double kYields = 0.015;  // yielding under each finger above which the finger presses less
-                                   // [m]
-constexpr double kOver = 0.02;     // rise or fall above which a hand moves in two parts [m]
-constexpr double kOverlap = 0.6;   // share of the duration taken by each part
-constexpr double kGuided = 0.4;    // noise of such a movement, guided by eye, over a reach's noise
-constexpr double kOpening = 2e-3;  // increase of the aperture that releases the object [m]
-constexpr double kUpward = 2e-3;   // rise beyond which a hand that grips lifts [m]
-constexpr double kIdle = 0.4;      // time between trials before the hand goes to rest [s]
-constexpr double kRestTime = 0.6;  // duration of the movement to rest [s]
-constexpr double kRetry = 3;      // time in a state after which its finished steps are repeated [s]
-constexpr double kGivingUp = 10;  // delay of an attempt that is not made [s]
-constexpr double kWeak = 0.4;     // grip that is too weak, over the right one
-constexpr double kDecision = 0.4;   // time to decide on an answer, beyond the reaction [s]
-constexpr double kFeelTime = 0.05;  // kFeelTime of hand/finger.h [s]
+constexpr double kWorse = 1.2;     // factor of error growth at which the person gives up correcting
+constexpr double kYields = 0.015;  // yielding under a finger above which it presses less [m]
+constexpr double kOver = 0.02;     // vertical distance above which the hand moves in two parts [m]
+constexpr double kOverlap = 0.6;   // duration of each part, as a share of the whole duration
+constexpr double kGuided = 0.4;    // ratio of such a movement's noise to a reach's
+constexpr double kOpening = 2e-3;  // increase in aperture that releases the object [m]
+constexpr double kUpward = 2e-3;   // upward movement beyond which a gripping hand starts a lift [m]
+constexpr double kIdle = 0.4;      // time between trials after which the hand returns to rest [s]
+constexpr double kRestTime = 0.6;  // duration of the movement back to rest [s]
+constexpr double kRetry = 3;       // time in a state before its steps are repeated [s]
+constexpr double kGivingUp = 10;   // delay that stands for not making an attempt [s]
+constexpr double kWeak = 0.4;      // ratio of a too weak grip to the right one
+constexpr double kDecision = 0.4;  // time to decide on an answer, after the reaction time [s]
+constexpr double kFeelTime = 0.05;  // same as kFeelTime in hand/finger.h [s]
 
 std::vector<Vec3> sides_of(const std::vector<hand::FingerPlace>& places) {
     std::vector<Vec3> out;
@@ -60,9 +59,9 @@ size_t first_finger(const Situation& situation) {
     return situation.task->first_fingers[situation.participant];
 }
 
-/// The fingers that the person moves with skill: the participant's own; with one participant, the
-/// scene's first ones, up to those of another hand. Throws Error if the fingers of another hand are
-/// not the last.
+/// The fingers that the person moves with skill: with several participants, the fingers of this
+/// participant; with one participant, all fingers of the scene before those of another hand. Throws
+/// Error if the fingers of another hand are not the last ones.
 std::vector<hand::FingerPlace> own_places(const Situation& situation) {
     auto out = hand::finger_places(situation.hand, scene::finger_names(situation.scene));
     const std::vector<size_t>& firsts = situation.task->first_fingers;
@@ -86,8 +85,8 @@ std::vector<hand::FingerPlace> own_places(const Situation& situation) {
     return out;
 }
 
-/// Objects as their appearance suggests: uniform, of ordinary density, with about their true
-/// friction.
+/// The properties that the appearance of objects suggests: uniform and of usual density, with
+/// approximately their true friction.
 std::vector<GripMemory> looks_of(const scene::Scene& scene, size_t first, const Traits& traits,
                                  uint64_t seed) {
     std::vector<GripMemory> out;
@@ -103,7 +102,7 @@ std::vector<GripMemory> looks_of(const scene::Scene& scene, size_t first, const 
     return out;
 }
 
-/// Whether the state waits for a key.
+/// Whether the state waits for a key press.
 bool asks(const TaskPlan::PlannedState& planned) noexcept {
     return std::any_of(planned.transitions.begin(), planned.transitions.end(),
                        [](const TaskPlan::Transition& transition) {
@@ -254,7 +253,7 @@ hand::FingerTarget Person::do_target(int finger, double t) const noexcept {
     // fingers press and carry with given forces: targets are off the handles by force / stiffness
     const double k = stiffness();
     const auto count = static_cast<double>(places_.size());
-    // an object that yields under the fingers is pressed less hard
+    // if an object yields under the fingers, they press less
     const double yields = std::clamp((touched_ - half_ - kYields) / kYields, 0.0, 1.0);
     target.p_WT += (half_ - (1 - yields) * grip_.squeeze() / k) * place.side;
     if (grip_.phase() == GripPhase::load) target.p_WT.z() = centre_.z() + place.offset.z();
@@ -289,7 +288,7 @@ void Person::do_see(const frame::Frame& frame) noexcept {
     const bool held = grip_.holds();
     const bool loads = grip_.phase() == GripPhase::load;
     grip_.tick(now_, touch_.feel(frame), places_.front().side, aim_);
-    // a hand that has opened continues from its present position
+    // after opening, the hand continues from its current aperture
     if (held && !grip_.holds()) aim_.shift({Vec3::Zero(), 2 * half_ - aim_.at(now_).aperture, 0});
     if (loads && grip_.phase() != GripPhase::load)
         aim_.shift({(centre_.z() - aim_.at(now_).centre.z()) * Vec3::UnitZ(), 0, 0});
@@ -324,8 +323,8 @@ void Person::see_targets(const Sight& sight) noexcept {
     seen_ |= sight.shown;
 }
 
-/// Follows a new state, recognised by its targets and its message. In a state that demands no
-/// movement, the current movement continues.
+/// Reacts to a new state, which is recognised by its targets and its message. If the new state
+/// requires no movement, the current movement continues.
 void Person::follow_cues(const Sight& sight) noexcept {
     if (sight.trial < 1 || sight.phase == task::kBetween) return await_trial();
     between_ = false;
@@ -352,28 +351,29 @@ void Person::follow_cues(const Sight& sight) noexcept {
     wait_until_ = begins;
 }
 
-/// Where the hand was felt to be at the time that the current sight shows.
+/// Felt position of the hand at the time that the person currently sees.
 const Vec3& Person::felt_hand() const noexcept {
     return strains_.before(traits_.visual_delay).hand;
 }
 
-/// Where the hand is: seen, or felt while the display holds its cursor.
+/// Position of the hand as seen or, while the display holds the cursor, as felt.
 const Vec3& Person::hand(const Sight& sight) const noexcept {
     return cursor_.is_held() ? felt_hand() : sight.hand;
 }
 
-/// Where the hand was felt to be at the moment that the display shows.
+/// Felt position of the hand at the time that the display shows, which is earlier if the cursor is
+/// held.
 const Vec3& Person::felt_where_shown() const noexcept {
     return cursor_.is_held() ? cursor_.shown().felt : felt_hand();
 }
 
-/// Whether the display shows the hand before its present reach.
+/// Whether the display still shows the hand before the start of the current reach.
 bool Person::shows_earlier_reach() const noexcept {
     return cursor_.is_held() && cursor_.shown().time < reach_.begin;
 }
 
-/// Lets go, or moves the hand to its rest position: between trials objects are put back, and the
-/// hand would be in the way.
+/// Lets go of the object or, if nothing is held, moves the hand to its rest position: objects are
+/// put back between trials, and the hand must not be in their way.
 void Person::rest() noexcept {
     end_reach();
     doing_ = Doing::nothing;
@@ -381,7 +381,7 @@ void Person::rest() noexcept {
         if (grip_.phase() != GripPhase::unload) grip_.release(now_, aim_);
         return;
     }
-    trial_ = 0;  // the next state is a new attempt
+    trial_ = 0;  // the next state begins a new attempt
     const Aim goal = aim_.goal();
     aim_.add({start_.centre - goal.centre, start_.aperture - goal.aperture, 0}, now_, kRestTime);
     reach_.presses = Vec3::Zero();
@@ -420,7 +420,7 @@ void Person::go_on(const Sight& sight) noexcept {
     }
 }
 
-/// Repeats the steps if the hand's movement was not enough for the trial to continue.
+/// Repeats the steps if the hand did not move far enough for the trial to continue.
 void Person::try_again(const Sight& sight) noexcept {
     const bool failed = !between_ && trial_ > 0 && phase_ == acting_ && now_ - since_ > kRetry &&
                         !steps().empty() && steps().front().step.reach.index >= 0;
@@ -463,7 +463,7 @@ Vec3 Person::target(const Sight& sight, const TaskPlan::Step& step) const noexce
     const Vec3 move = numbers_.of(step.step.move);
     if ((sight.shown >> region & 1u) != 0) return sight.target[region] + move;
     if ((seen_ >> region & 1u) != 0) return known_[region] + move;
-    // never seen: its position in the plan
+    // if the region was never seen, its planned position is used
     return numbers_.cell().p_W[region] + move;
 }
 
@@ -473,7 +473,7 @@ void Person::begin_step(const Sight& sight) noexcept {
     const double aperture = grip_.holds() ? 2 * half_ : aim_.goal().aperture;
     const double wanted = next.step.aperture ? numbers_.of(*next.step.aperture) : aperture;
     if (grip_.phase() == GripPhase::preload) {
-        doing_ = Doing::waiting;  // until the fingers have settled
+        doing_ = Doing::waiting;  // waits until the fingers have settled
         return;
     }
     if (grip_.holds() && next.step.aperture && wanted > aperture + kOpening) {
@@ -512,7 +512,7 @@ void Person::move(const Aim& way, double duration, const Sight& sight) noexcept 
     pending_ = way;
     doing_ = Doing::moving;
     const double up = way.centre.z();
-    // a movement in two parts has no single direction to judge
+    // a movement in two parts has no single direction that could be judged
     if (from_above(way.centre)) reach_.going = false;
     if (reach_.going) {
         reach_.begin = now_;
@@ -531,14 +531,14 @@ void Person::move(const Aim& way, double duration, const Sight& sight) noexcept 
     aim_.add(upward, now_, part, up > 0 ? 0 : duration - part);
 }
 
-/// Whether the hand moves in two parts: an open hand approaches objects from above, and leaves them
-/// upward, so that it does not sweep them away.
+/// Whether the hand makes a movement in two parts: an open hand approaches objects from above and
+/// moves upward to leave them, so that it does not sweep them away.
 bool Person::from_above(const Vec3& displacement) const noexcept {
     return places_.size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
 }
 
-/// The movement that the hand must make to be shown moving by `displacement`, as far as this has
-/// been learned.
+/// The movement that the hand must make so that the display shows `displacement`, as far as the
+/// person has learned this.
 Vec3 Person::made_for(const Vec3& displacement) const noexcept {
     if (displacement.norm() < 1e-9) return displacement;
     const auto state = static_cast<size_t>(acting_ - 1);
@@ -568,7 +568,7 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
     return way;
 }
 
-/// Whether a force field pushes the handles, or the object that the hand holds.
+/// Whether a force field pushes the handles or the object in the hand.
 bool Person::pushed(const frame::Frame& frame) const noexcept {
     const auto bodies = static_cast<int>(frame.bodies.size());
     return std::any_of(
@@ -577,8 +577,8 @@ bool Person::pushed(const frame::Frame& frame) const noexcept {
         });
 }
 
-/// The push revealed by the hand's strain in this Frame. If the hand was never pushed in this
-/// state, and is not pushed now, small strains are attributed to its own noise.
+/// The push that the strain of the hand reveals in this Frame. If the hand has never been pushed in
+/// this state and is not being pushed now, small strains are attributed to the hand's own noise.
 Strain Person::strain(const frame::Frame& frame) const noexcept {
     Strain out;
     out.hand = centre_;
@@ -596,16 +596,16 @@ Strain Person::strain(const frame::Frame& frame) const noexcept {
     out.push_W = stiffness() * off + impedance_.damping * drift;
     if (grip_.holds()) {
         out.push_W -= grip_.inertial() / count;
-        out.push_W.z() = 0;  // an object's weight has its own memory
+        out.push_W.z() = 0;  // the weight of an object has a memory of its own
     }
-    // a push against which the hand pressed is no longer felt, but has acted nevertheless
+    // a push that the hand opposed is no longer felt, but it did act
     out.push_W -= rate.centre.dot(reach_.along) * reach_.presses;
     out.speed = v_WH.dot(reach_.along);
     out.reach = reach_.number;
     return out;
 }
 
-/// Accumulates the push on the hand. Between trials the push may end before the movement does.
+/// Accumulates the push on the hand. Between trials, the push may end before the movement does.
 void Person::feel_strain() noexcept {
     const Strain& felt = strains_.before(traits_.visual_delay);
     if (!reach_.going || between_ || felt.reach != reach_.number) return;
@@ -613,8 +613,8 @@ void Person::feel_strain() noexcept {
     reach_.moved += felt.speed * felt.speed;
 }
 
-/// Corrects part of a reach's error once its direction is seen, and judges the direction before the
-/// correction becomes visible.
+/// Corrects part of a reach's error as soon as its direction is visible, and judges the direction
+/// before the effect of the correction becomes visible.
 void Person::watch_reach(const Sight& sight) noexcept {
     if (!reach_.going || reach_.seen || !sight.hand_shown || shows_earlier_reach()) return;
     const Vec3 shown = sight.hand - reach_.from;
@@ -631,24 +631,23 @@ void Person::watch_reach(const Sight& sight) noexcept {
     reach_.seen = true;
     const Vec3 arm = look(shown, traits_.visual_noise, random_);
     Vec3 wanted = reach_.way;
-    reach_.pushed =
-        reach_.moved > 0;  // later pushes belong to the next state, for which this reach ends
+    reach_.pushed = reach_.moved > 0;  // later pushes belong to the next state
     if (reach_.pushed) {
-        // a pushed hand is seen where it is felt, with the expected rotation
+        // a pushed hand is seen where it is felt to be, turned by the expected rotation
         const Vec3 felt = felt_where_shown() - reach_.felt_from;
         wanted = rotated(rotations_[reach_.state].expected(reach_.way.normalized()), felt);
     }
     reach_.error = rotation_between(wanted.normalized(), arm.normalized());
 }
 
-/// Judges the extent of a reach whose first stroke has ended, and learns from it. A held cursor
-/// shows how far the hand had come when the cursor froze, not where the hand stopped.
+/// When the first stroke of a reach has ended, judges the extent of the reach and learns from it. A
+/// held cursor shows how far the hand had come when the cursor froze, not where the hand stopped.
 void Person::judge_extent(const Sight& sight) noexcept {
     if (!reach_.going || reach_.ended || !sight.hand_shown || shows_earlier_reach()) return;
     reach_.ended = true;
     const double shown =
         look(sight.hand - reach_.from, traits_.visual_noise, random_).dot(reach_.way.normalized());
-    const double least = 0.1 * reach_.way.norm();  // a shorter movement says nothing about extent
+    const double least = 0.1 * reach_.way.norm();  // shorter movements do not reveal the extent
     if (shown < least) return;
     const Vec3 d = reach_.way.normalized();
     double wanted = reach_.way.norm();
@@ -669,18 +668,18 @@ void Person::end_reach() noexcept {
     reach_.going = false;
 }
 
-/// Corrects the seen end of a reach by another stroke. Returns whether the reach continues: with a
-/// stroke, or until its end is seen.
+/// Corrects the visible endpoint of a reach with another stroke. Returns whether the reach
+/// continues, either with a stroke or because its endpoint is not visible yet.
 bool Person::correct(const Sight& sight) noexcept {
     const TaskPlan::Step& step = steps()[step_];
     if (step.step.reach.index < 0 || corrections_ >= kMostCorrections) return false;
     if (now_ < aim_.end() + traits_.visual_delay + kSettled) return true;
-    if (!sight.hand_shown) return false;  // an unseen hand is assumed to be at its goal
+    if (!sight.hand_shown) return false;  // a hidden hand is assumed to be at its goal
     judge_extent(sight);
     if (cursor_.is_held()) return false;  // a held cursor does not follow the hand
     const Vec3 missed = look(target(sight, step) - sight.hand, traits_.visual_noise, random_);
     if (missed.norm() < kGoodEnough) return false;
-    // where the display turns movements by more than 70 degrees, each stroke leads further away
+    // if the display rotates movements by more than 70 degrees, each stroke leads further away
     const bool worse = missed.norm() > std::max(kReach, kWorse * missed_);
     if (corrections_ > 0 && worse && !reach_.pushed) return false;
     missed_ = missed.norm();
@@ -689,8 +688,8 @@ bool Person::correct(const Sight& sight) noexcept {
     return true;
 }
 
-/// Answers whether the last movement was shown larger than it was felt. The first key for which the
-/// state waits means yes, the second no.
+/// Answers whether the last movement looked larger than it felt. Of the keys for which the state
+/// waits, the first means yes and the second means no.
 void Person::answer(const Sight& sight) noexcept {
     answer_at_ = -1;
     const TaskPlan::PlannedState& planned = plan_->states[static_cast<size_t>(phase_ - 1)];
@@ -714,8 +713,9 @@ void Person::answer(const Sight& sight) noexcept {
     key_ = yes || second == 0 ? first : second;
 }
 
-/// Types the simulated answer to the next question or, because there is no model of ratings, a
-/// random whole number on its scale; after the last question of a form, Enter.
+/// Types the simulated answer to the next question. Because there is no model of ratings, the
+/// default is a random whole number on the question's scale. After the last question of a form,
+/// presses Enter.
 void Person::rate(const TaskPlan::Questions& questions) noexcept {
     if (rated_ == questions.items.size()) {
         key_ = task::Rating::kEnter;

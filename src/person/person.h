@@ -1,7 +1,7 @@
-// A simulated person, who sees the display, feels the handles, and moves the simulated hand. The
-// person knows the demands of each state of the task (the file's hand steps), but not the kinds of
-// trials and perturbations, which can only be seen and felt. Fingers of a second hand perform the
-// steps that name them, exactly as in the file.
+// A simulated person who sees the display, feels the handles, and moves the simulated hand. The
+// person knows what each state of the task demands (the hand steps in the file), but not the kinds
+// of trials or the perturbations, which can only be seen and felt. The fingers of a second hand
+// follow the steps that name them, exactly as written in the file.
 #pragma once
 
 #include <memory>
@@ -23,32 +23,32 @@
 
 namespace dihaptic::person {
 
-/// The situation in which a simulated person sits down.
+/// The situation in which a simulated person does a task.
 struct Situation {
     std::shared_ptr<const task::TaskPlan> task;
     const scene::Scene& scene;
     const hand::HandSpec& hand;
     double tick;  ///< [s]
     uint64_t seed;
-    size_t participant = 0;  ///< in a task for two: index of the participant whose hand this is
+    size_t participant = 0;  ///< in a task for two, index of the participant who owns this hand
 };
 
 class Person final : public task::SeeingDriver {
   public:
-    /// Throws Error when a task cannot move the situation's hand.
+    /// Throws Error when the hand in this situation cannot be moved by a task.
     Person(const Traits& traits, const Situation& situation);
 
     double duration() const override { return hand::kLongestScript; }
     const std::vector<Phase>& phases() const override { return phases_; }
     void restart() override;
 
-    /// What the person has learned and retained overnight.
+    /// What the person has learned and will retain overnight.
     Learned learned() const;
-    /// Makes the person recall `before` from the beginning of the session on.
+    /// Makes the person recall `before` from the start of the session on.
     void recall(Learned before);
 
     const Grip& grip() const { return grip_; }
-    /// The knowledge learned in a state of the task, given by its index.
+    /// What the person has learned about rotations in a state of the task, given by its index.
     const RotationMemory& rotations(size_t state) const { return rotations_[state]; }
     const ForceMemory& forces(size_t state) const { return forces_[state]; }
 
@@ -95,9 +95,9 @@ class Person final : public task::SeeingDriver {
     std::shared_ptr<const task::TaskPlan> plan_;
     task::TrialNumbers numbers_;
     std::vector<std::vector<task::TaskPlan::Step>> steps_;  // by state
-    size_t first_;                                          // index of the hand's first finger
+    size_t first_;                                          // index of the first finger of the hand
     std::vector<hand::FingerPlace> places_;
-    std::optional<task::TaskHand> other_;  // moves the fingers of other hands, without senses
+    std::optional<task::TaskHand> other_;  // moves the fingers of other hands, which feel nothing
     hand::Impedance impedance_;
     Aim start_;
     uint64_t seed_;
@@ -109,18 +109,18 @@ class Person final : public task::SeeingDriver {
     Eyes eyes_;
     Touch touch_;
     double half_ = 0;             // half the aperture of the handles [m]
-    double touched_ = 0;          // half_ when both fingers touched [m]
-    Vec3 centre_ = Vec3::Zero();  // of the handles [m]
-    double felt_ = 0;          // force on a finger, smoothed like the stiffness that follows it [N]
-    Past<Strain> strains_;     // delayed like sight, for comparison with it
-    std::vector<Vec3> known_;  // where each region was last seen [m]
+    double touched_ = 0;          // value of half_ when both fingers touched [m]
+    Vec3 centre_ = Vec3::Zero();  // middle of the handles [m]
+    double felt_ = 0;          // force on a finger, smoothed like the stiffness it determines [N]
+    Past<Strain> strains_;     // read with the delay of sight, to be compared with it
+    std::vector<Vec3> known_;  // last seen position of each region [m]
     HeldCursor cursor_;
-    uint32_t seen_ = 0;  // regions that have been seen, one bit each
+    uint32_t seen_ = 0;  // regions that have been seen, one bit per region
 
     // memory
-    Learned before_;  // in earlier sessions
+    Learned before_;  // what was learned in earlier sessions
     std::vector<std::string> bodies_;
-    std::vector<RotationMemory> rotations_;  // by state: learning in one state stays in it
+    std::vector<RotationMemory> rotations_;  // by state, since learning in one stays in it
     std::vector<GainMemory> gains_;          // by state
     std::vector<ForceMemory> forces_;        // by state
     Grip grip_;
@@ -133,47 +133,46 @@ class Person final : public task::SeeingDriver {
     int attempt_ = 0;
     int phase_ = 0;
     int acting_ =
-        0;  // the state whose steps are being performed; unchanged by later states without steps
+        0;  // state whose steps are performed; later states without steps do not change it
     bool between_ = true;    // between trials
-    double since_ = 0;       // start of the state, of the time between trials, or of idleness [s]
+    double since_ = 0;       // start of the state, of the time between trials, or of idle time [s]
     double wait_until_ = 0;  // [s]
     size_t step_ = 0;
-    Aim pending_;  // the current movement; in a lift it starts when the object comes off
-    double pending_time_ = 0;  // duration of that movement [s]
+    Aim pending_;              // current movement; in a lift, it starts when the object lifts off
+    double pending_time_ = 0;  // duration of pending_ [s]
     int corrections_ = 0;
-    double missed_ = 0;  // before the last correction [m]
-    double delay_ = 0;   // hesitation before this trial's next movement [s]
+    double missed_ = 0;  // distance from the target before the last correction [m]
+    double delay_ = 0;   // hesitation before the next movement of this trial [s]
     struct Reach {
         bool going = false;
-        bool mended = false;  // the reach was corrected in its course
-        bool seen = false;    // its direction error was seen
-        bool ended = false;   // its first stroke has ended, and its extent was judged
-        bool pushed = false;  // a push was felt before its error was judged
+        bool mended = false;  // whether the reach was corrected on the way
+        bool seen = false;    // whether its direction error was seen
+        bool ended = false;   // whether its first stroke has ended and its extent was judged
+        bool pushed = false;  // whether a push was felt before its error was judged
         int number = 0;       // from 1
         size_t state = 0;
         Vec3 from = Vec3::Zero();       // displayed position of the hand at the start [m]
-        Vec3 felt_from = Vec3::Zero();  // ... and its felt position [m]
-        Vec3 way = Vec3::Zero();        // displacement to be shown [m]
+        Vec3 felt_from = Vec3::Zero();  // felt position of the hand at the start [m]
+        Vec3 way = Vec3::Zero();        // displacement that the display should show [m]
         Vec3 error = Vec3::Zero();      // rotation vector from `way` to the hand's direction [rad]
 
-        double begin = 0;             // start of its first stroke [s]
-        double duration = 0;          // duration of that stroke; 0: not started [s]
-        Vec3 along = Vec3::Zero();    // unit direction in which the hand means to move
-        Vec3 strayed = Vec3::Zero();  // deviation of that stroke from this direction, by noise [m]
-        Vec3 presses = Vec3::Zero();  // force against a push, per speed along it [N*s/m]
+        double begin = 0;             // start time of its first stroke [s]
+        double duration = 0;          // duration of its first stroke [s]; 0 if not started
+        Vec3 along = Vec3::Zero();    // unit vector of the intended direction
+        Vec3 strayed = Vec3::Zero();  // deviation of the first stroke from `along` by noise [m]
+        Vec3 presses = Vec3::Zero();  // force that opposes a push, per speed along `along` [N*s/m]
         Vec3 push = Vec3::Zero();     // sum of push times speed [N*m/s]
-        double moved = 0;             // sum of squared speed; 0: nothing pushed [m^2/s^2]
+        double moved = 0;             // sum of squared speed [m^2/s^2]; 0 if nothing pushed
     };
     Reach reach_;
 
     // answers
-    Vec3 shown_from_ =
-        Vec3::Zero();  // start of the last movement of sufficient length, as shown [m]
-    Vec3 felt_from_ = Vec3::Zero();  // ... and as felt [m]
-    double answer_at_ = -1;          // time of the answer [s]; negative: no question
-    size_t rated_ = 0;               // number of the state's questions answered so far
+    Vec3 shown_from_ = Vec3::Zero();  // displayed start of the last sufficiently long movement [m]
+    Vec3 felt_from_ = Vec3::Zero();   // felt start of that movement [m]
+    double answer_at_ = -1;           // time of the answer [s]; negative if there is no question
+    size_t rated_ = 0;                // number of questions of the state that have been answered
     char key_ = 0;
-    std::array<char, 12> typed_{};  // digits of a rating
+    std::array<char, 12> typed_{};  // digits of the answer being typed
     size_t typed_length_ = 0;
     size_t typed_at_ = 0;
 };

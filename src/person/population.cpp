@@ -20,10 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostGroups = 1000;  // bounds the time to check each group's traits
-constexpr double kFarthest = 2.5;     // largest |z|: no person is further from the median
+constexpr size_t kMostGroups = 1000;  // limits the time needed to check the traits of all groups
+constexpr double kFarthest = 2.5;     // largest |z|, i.e. distance of a person from the median
 
-/// Traits that are zero in people without noise and mistakes.
+/// Traits that are zero in people who show no noise and make no mistakes.
 constexpr std::array kNoise{"visual_noise",    "reaction_noise", "tempo_noise",  "direction_noise",
                             "adapted_noise",   "extent_noise",   "reflex_noise", "friction_error",
                             "hesitation_rate", "slip_rate",      "give_up_rate"};
@@ -44,14 +44,14 @@ double drawn(const TraitSpread& row, double z) {
     return median;
 }
 
-/// The trait with this name; null if there is none.
+/// The trait with the given name; null if there is none.
 auto find(auto& traits, const std::string& name) {
     const auto found = std::find_if(traits.begin(), traits.end(),
                                     [&](const TraitSpread& t) { return t.trait == name; });
     return found == traits.end() ? nullptr : &*found;
 }
 
-/// Replaces those members of `trait` that `change` gives.
+/// Overwrites those members of `trait` that are set in `change`.
 void overlay(TraitSpread& trait, const TraitSpread& change) {
     if (change.law) trait.law = change.law;
     if (change.median) trait.median = change.median;
@@ -60,7 +60,7 @@ void overlay(TraitSpread& trait, const TraitSpread& change) {
     trait.place = change.place;
 }
 
-/// The population's traits with the changes of one group.
+/// The traits of the population, with the changes made for one group.
 std::vector<TraitSpread> traits_of(const Population& population, const std::string& group) {
     std::vector<TraitSpread> out = population.traits;
     for (const Group& one : population.groups) {
@@ -72,8 +72,8 @@ std::vector<TraitSpread> traits_of(const Population& population, const std::stri
     return out;
 }
 
-/// Traits with these values, by the rows' names and units; values out of bounds are reported to
-/// `diagnostics`.
+/// Traits with the given values, in the units that the names in `rows` state. Reports values that
+/// are out of bounds to `diagnostics`.
 Traits traits_with(const std::vector<TraitSpread>& rows, const std::vector<double>& values,
                    Diagnostics& diagnostics) {
     Node node = Node::mapping();
@@ -87,7 +87,7 @@ Traits traits_with(const std::vector<TraitSpread>& rows, const std::vector<doubl
     return out;
 }
 
-/// Lists the names of traits, without their units.
+/// Collects the names of traits, without units.
 struct TraitNames {
     std::vector<std::string> names;
 
@@ -106,7 +106,8 @@ const std::vector<std::string>& all_traits() {
     return names;
 }
 
-/// "direction_noise_deg" and "direction_noise_rad" are one trait: direction_noise.
+/// Removes the unit from a trait's key: "direction_noise_deg" and "direction_noise_rad" are the
+/// same trait, direction_noise.
 std::string without_unit(const std::string& trait) {
     std::string out = trait;
     for (const std::string& name : all_traits()) {
@@ -116,7 +117,7 @@ std::string without_unit(const std::string& trait) {
     return out;
 }
 
-/// Checks that traits are within bounds at the median, and at the extremes on both sides.
+/// Checks that all traits are within bounds at the median and at both extremes.
 void check_bounds(const Population& population, const std::string& group,
                   Diagnostics& diagnostics) {
     const auto rows = traits_of(population, group);
@@ -139,7 +140,7 @@ void check_group(const Population& population, const Group& group, Diagnostics& 
     check_bounds(population, group.name, diagnostics);
 }
 
-/// The matrix of correlations of all traits, in their order.
+/// The correlation matrix of all traits, in the order of the traits.
 Eigen::MatrixXd correlations(const Population& population) {
     const auto n = static_cast<Eigen::Index>(population.traits.size());
     Eigen::MatrixXd out = Eigen::MatrixXd::Identity(n, n);
@@ -207,13 +208,13 @@ void check(const Population& population, const std::string& file, Diagnostics& d
     check_correlations(population, file, diagnostics);
 }
 
-/// The population, completed from `base`.
+/// The population `change`, completed with the parts that only `base` has.
 Population resolved(Population change, Population base) {
     for (const TraitSpread& trait : change.traits) {
         if (TraitSpread* there = find(base.traits, trait.trait)) {
             overlay(*there, trait);
         } else {
-            base.traits.push_back(trait);  // check() reports its faults
+            base.traits.push_back(trait);  // check() reports faults in the trait
         }
     }
     change.traits = std::move(base.traits);
@@ -249,7 +250,8 @@ Population read_shipped(Objects objects) {
     return checked(std::move(out), "populations", diagnostics);
 }
 
-/// The number at the end of an identifier; 1 if there is none, or if it has more than nine digits.
+/// The number at the end of an identifier; 1 if there is no number or if it has more than nine
+/// digits.
 size_t number_of(const std::string& id) {
     const size_t last = id.find_last_not_of("0123456789");
     const std::string digits = id.substr(last == std::string::npos ? 0 : last + 1);
@@ -265,7 +267,7 @@ Traits with_names(Traits traits, const Population& population, const std::string
     return traits;
 }
 
-/// Reads a file, and the files on which it is based. `above`: the files based on this one.
+/// Reads a file and the files on which it is based. `above`: the files that are based on this one.
 Population read_based(std::set<fs::path> above, const std::string& file) {
     Diagnostics diagnostics;
     const Node root = read_yaml(file);

@@ -1,10 +1,10 @@
-// Populations from which simulated people are drawn, and their files: the median and spread of each
-// trait with their source, correlations between traits, and groups that differ.
+// Populations from which simulated people are drawn, and population files: the median and spread of
+// each trait with their source, correlations between traits, and groups that differ.
 //
-// A person's trait is drawn by its law from a normal number z, which is cut at 2.5. Correlated
-// traits have z = L u, with u independent and R = L L^T the matrix of correlations. Each u comes
-// from its own random stream, named after the person and the trait: a person is the same whichever
-// others are drawn.
+// The value of a trait follows from its law and a normally distributed number z, which is limited
+// to between -2.5 and 2.5. Correlated traits have z = L u, where the elements of u are independent
+// and R = L L^T is the correlation matrix. Each element of u comes from a random stream of its own,
+// named after the person and the trait, so a person does not depend on which others are drawn.
 #pragma once
 
 #include <array>
@@ -18,24 +18,24 @@
 
 namespace dihaptic::person {
 
-/// The distribution of a trait over people, about its median.
+/// How a trait is distributed over people, relative to its median.
 enum class Law {
     normal,      ///< median + spread z
     log_normal,  ///< median exp(spread z)
-    logit,       ///< logit(p) = logit(median) + spread z: stays between 0 and 1
-    forgetting,  ///< 1 - p is log-normal: a retention near 1
+    logit,       ///< logit(p) = logit(median) + spread z, which keeps p between 0 and 1
+    forgetting,  ///< 1 - p is log-normal, for a retention p near 1
 };
 constexpr auto enum_names(Law) {
     return std::array{"normal", "log_normal", "logit", "forgetting"};
 }
 
-/// The spread of one trait. Omitted members are taken from the population, for a trait of a group,
-/// or from the file on which the population is based.
+/// The spread of one trait. In a group, members that are omitted are taken from the population; in
+/// a population, they are taken from the file on which it is based.
 struct TraitSpread {
-    std::string trait;  ///< its key in person.yaml, with its unit, if any
+    std::string trait;  ///< key in person.yaml, including the unit, if there is one
     std::optional<Law> law;
-    std::optional<double> median;  ///< in that unit
-    std::optional<double> spread;  ///< multiplies z in the law
+    std::optional<double> median;  ///< in the unit of the key
+    std::optional<double> spread;  ///< factor on z in the law
     std::string source;
     Place place;
 
@@ -53,7 +53,7 @@ struct TraitSpread {
 
 struct Correlation {
     std::vector<std::string> traits;  ///< two
-    double r = 0;                     ///< correlation of their z
+    double r = 0;                     ///< correlation between the z of the two traits
     Place place;
 
     template <class Visitor>
@@ -65,7 +65,7 @@ struct Correlation {
 
 struct Group {
     std::string name;
-    std::vector<TraitSpread> traits;  ///< traits that differ from the population's
+    std::vector<TraitSpread> traits;  ///< traits that differ from those of the population
     Place place;
 
     template <class Visitor>
@@ -77,13 +77,12 @@ struct Group {
 
 struct Population {
     std::string title;
-    std::string about;  ///< description, for a reader
-    std::string
-        based_on;  ///< path of the file that this one changes, relative to its folder; empty: none
+    std::string about;     ///< description, for human readers
+    std::string based_on;  ///< path of the file that this one changes, relative to its own folder
     Objects objects = Objects::device;
     std::vector<TraitSpread> traits;
     std::vector<Correlation> correlations;
-    std::vector<Group> groups;  ///< groups to which people are assigned in turn; may be empty
+    std::vector<Group> groups;  ///< groups, to which people are assigned in turn; may be empty
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -98,10 +97,11 @@ struct Population {
         v("groups", groups, says("Groups to which people are assigned in turn."));
     }
 
-    /// Name of a person's group, by the number at the end of `id`; empty without groups.
+    /// Name of a person's group, which depends on the number at the end of `id`; empty if there are
+    /// no groups.
     std::string group_of(const std::string& id) const;
-    /// Number of a person within the group, from 1. Counterbalanced orders use it, because the
-    /// number in `id` would give groups different orders.
+    /// Number of a person within the group, from 1. It determines counterbalanced orders, because
+    /// the number in `id` would give different groups different orders.
     int number_in_group(const std::string& id) const;
 };
 
@@ -109,22 +109,23 @@ struct Population {
 /// or missing traits, traits that exceed their bounds at z = 2.5 or -2.5, and contradictory
 /// correlations.
 Population read_population(const std::string& file);
-/// The population of populations/adults.yaml, or of adults-real-objects.yaml, as built into the
+/// The population in populations/adults.yaml or in adults-real-objects.yaml, as embedded in the
 /// program.
 const Population& shipped_population(Objects objects);
 
-/// The population in a file; "": the shipped one.
+/// The population in a file; the shipped population if `file` is "".
 Population population_of(const std::string& file, Objects objects);
 
-/// The median person of a group, without noise and mistakes.
+/// The median person of a group, who shows no noise and makes no mistakes.
 Traits median_person(const Population& population, const std::string& group = "");
-/// Draws person `id` of the population with this seed: always the same, whichever others are drawn.
+/// Draws person `id` from the population with this seed. The result does not depend on which other
+/// people are drawn.
 Traits draw_person(const Population& population, uint64_t seed, const std::string& id);
-/// The same, for one of its groups.
+/// Draws person `id` from one group of the population.
 Traits draw_person(const Population& population, uint64_t seed, const std::string& id,
                    const std::string& group);
 
-/// A person from a shipped population.
+/// The median person of a shipped population.
 Traits median_person(Objects objects);
 Traits draw_person(Objects objects, uint64_t seed, const std::string& id);
 

@@ -1,4 +1,4 @@
-// The text of the files in populations/, which the build puts into the program.
+// The contents of the files in populations/, which the build embeds in the program.
 #pragma once
 
 #include <string_view>

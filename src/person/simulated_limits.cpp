@@ -13,7 +13,7 @@ constexpr const char* kRemedy =
     "Rehearse the order and timing of trials with simulated people, but do not treat their figures "
     "as human data.";
 
-/// Whether the perturbation scales displayed movements.
+/// Whether the perturbation scales movements on the display.
 bool scales(const task::PerturbationSpec& perturbation) {
     if (!perturbation.visual) return false;
     const auto& moves = perturbation.visual->moves;
@@ -21,7 +21,7 @@ bool scales(const task::PerturbationSpec& perturbation) {
            perturbation.visual->scale != FormulaVec3{1, 1, 1};
 }
 
-/// Number of keys for which a state waits: two or more form a question.
+/// Number of different keys for which a state waits. Two or more keys form a question.
 size_t keys_of(const task::TaskPlan::PlannedState& planned) {
     std::set<std::string> keys;
     for (const task::TaskPlan::Transition& transition : planned.transitions) {
@@ -30,8 +30,8 @@ size_t keys_of(const task::TaskPlan::PlannedState& planned) {
     return keys.size();
 }
 
-/// Perturbations for which `has` holds, each name once, among the task's and those that conditions
-/// and rounds put in their place.
+/// The perturbations for which `has` holds, each name once. Considers the task's perturbations and
+/// those that conditions and rounds replace them with.
 template <class F>
 std::vector<const task::PerturbationSpec*> perturbations_with(const task::TaskPlan& plan,
                                                               const F& has) {
@@ -176,7 +176,7 @@ void warn_of_pushes(const task::TaskPlan& plan, std::vector<Problem>& out) {
                        "they do in answer is the same whatever the force, and measures of it are "
                        "arbitrary",
                        kRemedy});
-        return;  // warn once: it concerns the people, not this motor
+        return;  // one warning is enough, because it concerns the people, not this motor
     }
 }
 

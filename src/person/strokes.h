@@ -1,10 +1,10 @@
-// A movement as a sum of minimum-jerk strokes (Flash and Henis 1991): a correction is one more
-// stroke, added to those under way.
+// A movement as a sum of minimum-jerk strokes (Flash and Henis 1991). A correction is another
+// stroke, added to the strokes that are under way.
 //
 //     x(t) = x0 + sum d_i share((t - t_i) / T_i)
 //
-// with d_i the displacement of a stroke, t_i its start, T_i its duration, and share() of
-// model/minimum_jerk.h.
+// Here d_i is the displacement of stroke i, t_i its start time and T_i its duration; share() is
+// defined in model/minimum_jerk.h.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace dihaptic::person {
 
-/// The aim of a hand: its centre, its aperture, and the force with which it carries objects. Also
-/// used for differences of aims, and their rates of change.
+/// The aim of a hand: its centre, its aperture, and the force with which it carries objects. The
+/// type is also used for differences between aims and for their rates of change.
 struct Aim {
     Vec3 centre = Vec3::Zero();  ///< [m]
     double aperture = 0;         ///< [m]
@@ -40,8 +40,8 @@ class Strokes {
         end_ = 0;
     }
 
-    /// Adds a stroke that begins `delay` after `now`. If there are already kMost, the first counts
-    /// as completed.
+    /// Adds a stroke that begins at `now` + `delay`. If there are already kMost strokes, the first
+    /// is treated as completed.
     void add(const Aim& way, double now, double duration, double delay = 0) noexcept {
         size_t kept = 0;
         for (size_t i = 0; i < count_; ++i) {
@@ -58,7 +58,7 @@ class Strokes {
         end_ = std::max(end_, now + delay + duration);
     }
 
-    /// Shifts the aim at once.
+    /// Shifts the aim immediately, without a stroke.
     void shift(const Aim& way) noexcept { base_ += way; }
 
     Aim at(double t) const noexcept {
@@ -67,7 +67,7 @@ class Strokes {
             out += strokes_[i].way * model::minimum_jerk(strokes_[i].share(t)).share;
         return out;
     }
-    /// First derivative with respect to time.
+    /// First derivative of the aim with respect to time.
     Aim rate(double t) const noexcept {
         Aim out;
         for (size_t i = 0; i < count_; ++i) {
@@ -86,7 +86,7 @@ class Strokes {
         }
         return out;
     }
-    /// The aim at the end of all strokes.
+    /// The aim when all strokes have ended.
     Aim goal() const noexcept {
         Aim out = base_;
         for (size_t i = 0; i < count_; ++i) out += strokes_[i].way;

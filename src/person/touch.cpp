@@ -5,13 +5,14 @@
 namespace dihaptic::person {
 namespace {
 
-constexpr double kLeastForce = 0.03;        // least force that is felt [N]
-constexpr double kSlipSpeed = 1e-3;         // speed below which sliding does not count [m/s]
-constexpr double kSlipDistance = 1e-4;      // least slip that is felt [m]
-constexpr double kPad = 0.01;               // size of a fingertip's pad [m]
-constexpr double kAccelerationTime = 0.02;  // time constant by which accelerations are smoothed [s]
+constexpr double kLeastForce = 0.03;        // smallest force that is felt [N]
+constexpr double kSlipSpeed = 1e-3;         // speed below which sliding is ignored [m/s]
+constexpr double kSlipDistance = 1e-4;      // shortest slip that is felt [m]
+constexpr double kPad = 0.01;               // size of a fingertip pad [m]
+constexpr double kAccelerationTime = 0.02;  // time constant for smoothing accelerations [s]
 
-/// The contact in which proxy `finger` presses a body of the scene hardest; null if there is none.
+/// The contact in which the proxy of `finger` presses hardest on a body of the scene; null if it
+/// presses on no body.
 const frame::ContactFrame* hardest(const frame::Frame& frame, size_t finger) noexcept {
     const auto bodies = static_cast<int>(frame.bodies.size());
     const int proxy = bodies + static_cast<int>(finger);
@@ -70,7 +71,7 @@ Feeling Touch::feel(const frame::Frame& frame) noexcept {
             out.slips = true;
             const double normal = std::abs(contact->f_B_W.dot(n_W));
             const double across = (contact->f_B_W - contact->f_B_W.dot(n_W) * n_W).norm();
-            // a body that turns under the finger slips too, but does not reveal its friction
+            // a body that turns under the finger also slips, but that does not reveal its friction
             const bool turns = body.w_WB.norm() * kPad > slip.norm() / 2;
             out.slip_friction = normal > 0 && !turns ? across / normal : 0;
         }

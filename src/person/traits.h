@@ -1,4 +1,4 @@
-// The traits of one simulated person; population.h defines their spread over people.
+// The traits of a simulated person. population.h defines how they are distributed over people.
 #pragma once
 
 #include <array>
@@ -11,69 +11,69 @@
 
 namespace dihaptic::person {
 
-/// Whether objects are felt directly or through a haptic device. Through a device people grip
+/// Whether objects are felt directly or through a haptic device. Through a device, people grip
 /// harder and learn weights more slowly (EMBC 2022).
 enum class Objects { real, device };
 constexpr auto enum_names(Objects) {
     return std::array{"real", "device"};
 }
 
-/// README.md explains the effect of each trait; populations/ gives medians, spreads and their
-/// sources.
+/// README.md explains the effect of each trait. The files in populations/ give medians, spreads and
+/// their sources.
 struct Traits {
     std::string id;
     std::string population;  ///< title of the population from which the person was drawn
-    std::string group;       ///< group in that population; empty without groups
+    std::string group;       ///< group in that population; empty if there are no groups
     Objects objects = Objects::device;
 
-    double visual_delay = 0;       ///< delay from the screen to the resulting movement [s]
-    double visual_noise = 0;       ///< SD of a seen position, per axis [m]
-    double reaction_time = 0;      ///< from the cue to the movement [s]
-    double reaction_noise = 0;     ///< SD over trials, as a share
-    double tempo = 0;              ///< movement times over those in the experiment file
-    double tempo_noise = 0;        ///< SD over movements, as a share
-    double direction_noise = 0;    ///< SD of a reach's direction, per axis across it [rad]
-    double adapted_noise = 0;      ///< SD of a direction, as a share of the learning about it
-    double extent_noise = 0;       ///< SD of a movement's length, as a share
-    double online_correction = 0;  ///< share of a seen error that is corrected within the reach
+    double visual_delay = 0;       ///< delay from an event on the screen to the response [s]
+    double visual_noise = 0;       ///< SD of a perceived position, per axis [m]
+    double reaction_time = 0;      ///< time from the cue to the movement [s]
+    double reaction_noise = 0;     ///< SD of the reaction time over trials, as a share
+    double tempo = 0;              ///< ratio of movement times to those in the experiment file
+    double tempo_noise = 0;        ///< SD of the tempo over movements, as a share
+    double direction_noise = 0;    ///< SD of a reach's direction, per axis across the reach [rad]
+    double adapted_noise = 0;      ///< SD of a learned direction, as a share of what was learned
+    double extent_noise = 0;       ///< SD of the length of a movement, as a share
+    double online_correction = 0;  ///< share of a visible error that is corrected during the reach
 
-    double fast_retention = 0;  ///< per reach; of the two processes of adaptation to rotations
+    double fast_retention = 0;  ///< per reach; first of four values for adaptation to rotations
     double fast_learning = 0;
     double slow_retention = 0;
     double slow_learning = 0;
-    double generalisation = 0;  ///< SD of the slow process over target directions [rad]
+    double generalisation = 0;  ///< generalisation width (SD) of the slow process [rad]
 
-    double gain_retention = 0;  ///< per movement; of adaptation to scaled displays
+    double gain_retention = 0;  ///< per movement; for adaptation to scaled displays
     double gain_learning = 0;
 
-    double force_fast_retention = 0;  ///< per reach; of the two processes of adaptation to forces
+    double force_fast_retention = 0;  ///< per reach; first of four values for adaptation to forces
     double force_fast_learning = 0;
     double force_slow_retention = 0;
     double force_slow_learning = 0;
-    double force_generalisation = 0;  ///< SD of both over directions of movement [rad]
+    double force_generalisation = 0;  ///< generalisation width (SD) of both force processes [rad]
 
-    double safety_margin = 0;    ///< of the static grip force
-    double least_grip = 0;       ///< least grip force, however light the object [N]
-    double peak_grip = 0;        ///< grip force at lift-off over static grip force
-    double preload_time = 0;     ///< from touch to the onset of load force [s]
-    double load_time = 0;        ///< duration of the load phase for an expected weight of 0 [s]
-    double load_time_rise = 0;   ///< its rise with the expected weight [s/N]
-    double reflex_latency = 0;   ///< time from a touch, slip, or load to the response [s]
-    double reflex_noise = 0;     ///< SD over trials [s]
-    double weight_learning = 0;  ///< share of an error in weight that is corrected by the next lift
-    double friction_error = 0;   ///< SD of the log of a surface's seen or felt over true friction
-    double skin_time = 0;  ///< time from touch until the skin senses the friction; 0: never [s]
-    double mass_retention = 0;  ///< per movement; of adaptation to a mass beyond the weight's
+    double safety_margin = 0;    ///< safety margin of the static grip force
+    double least_grip = 0;       ///< smallest grip force, even for a very light object [N]
+    double peak_grip = 0;        ///< ratio of the grip force at lift-off to the static grip force
+    double preload_time = 0;     ///< time from touch to the onset of the load force [s]
+    double load_time = 0;        ///< duration of the load phase at an expected weight of 0 [s]
+    double load_time_rise = 0;   ///< increase of this duration per expected weight [s/N]
+    double reflex_latency = 0;   ///< time from a touch, slip or load change to the response [s]
+    double reflex_noise = 0;     ///< SD of the reflex latency over trials [s]
+    double weight_learning = 0;  ///< share of a weight error that is corrected in the next lift
+    double friction_error = 0;   ///< SD of the log of the ratio of perceived to true friction
+    double skin_time = 0;       ///< time from touch until the skin senses friction; 0 for never [s]
+    double mass_retention = 0;  ///< per movement; for adaptation to mass that causes no weight
     double mass_learning = 0;
 
-    double answer_bias = 0;   ///< log of displayed over felt movement at which the two seem equal
+    double answer_bias = 0;   ///< log of displayed over felt movement at which both seem equal
     double answer_sd = 0;     ///< SD of the psychometric function
-    double answer_lapse = 0;  ///< share of wrong answers, however clear the difference
+    double answer_lapse = 0;  ///< share of wrong answers, even for a clear difference
 
     double hesitation_rate = 0;  ///< share of trials that start late
-    double hesitation_time = 0;  ///< mean delay of these trials [s]
+    double hesitation_time = 0;  ///< mean delay of a late trial [s]
     double slip_rate = 0;        ///< share of grips that are too weak
-    double give_up_rate = 0;     ///< share of attempts that are not made
+    double give_up_rate = 0;     ///< share of attempts that the person does not make
 
     model::TwoRate rotation() const {
         return {{fast_retention, fast_learning}, {slow_retention, slow_learning}};

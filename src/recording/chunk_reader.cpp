@@ -10,11 +10,11 @@
 namespace dihaptic::recording {
 namespace {
 
-/// The file is searched for kinds in blocks of this many bytes.
+/// The file is searched for chunks in blocks of this many bytes.
 constexpr int64_t kBlock = 1 << 16;
-/// Bytes that look like a chunk but are not one may have to be read again, starting at each of
-/// them. A file that requires more such reading than this must have been made to keep its reader
-/// busy [bytes].
+/// Bytes that look like a chunk but are not a chunk may have to be read again and again, once from
+/// each such place. If a file requires more repeated reading than this, it must have been crafted
+/// to keep its reader busy [bytes].
 constexpr int64_t kMostWasted = int64_t{1} << 30;
 constexpr std::array kKinds{kHead, kData, kPacked, kDone};
 
@@ -49,7 +49,7 @@ ChunkReader::ChunkReader(const std::string& file) : name_(file), file_(file) {
     first_ = end_;
 }
 
-/// Whether the header of one of the log's own chunks is at this position.
+/// Whether the header at this position belongs to one of the log's own chunks.
 bool ChunkReader::is_next(const ChunkPlace& place, ChunkHeader& out) const {
     return header_at(place.at, out) && out.session == session_ &&
            (version_ == 1 || out.number == place.number) &&
@@ -60,7 +60,7 @@ std::vector<ChunkPlace> ChunkReader::places() const {
     std::vector<ChunkPlace> out;
     ChunkPlace place{first_, 1};
     ChunkHeader header;
-    // bytes that are written meanwhile are ignored
+    // bytes written after the file was opened are ignored
     while (place.at < file_.size() && is_next(place, header)) {
         const int64_t end = place.at + header_size() + header.size;
         if (end > file_.size()) return out;  // the chunk was not written completely
@@ -107,7 +107,7 @@ int64_t ChunkReader::header_size() const {
     return version_ == 1 ? sizeof(ChunkHeader1) : sizeof(ChunkHeader);
 }
 
-/// Reads the bytes at a position as a header.
+/// Reads the bytes at a position as a chunk header.
 bool ChunkReader::header_at(int64_t at, ChunkHeader& out) const {
     if (version_ > 1)
         return file_.read(at, std::as_writable_bytes(std::span(&out, 1))) == sizeof(out);
@@ -118,7 +118,7 @@ bool ChunkReader::header_at(int64_t at, ChunkHeader& out) const {
     return true;
 }
 
-/// Reads the chunk at a position; false if there is none, or if it is damaged.
+/// Reads the chunk at a position; returns false if there is no chunk or if the chunk is damaged.
 bool ChunkReader::read_at(int64_t at, ChunkHeader& out) {
     if (!header_at(at, out)) return false;
     if (out.size > kMostPayload || out.size > file_.size() - at - header_size()) return false;
@@ -133,11 +133,11 @@ bool ChunkReader::read_at(int64_t at, ChunkHeader& out) {
     return false;
 }
 
-/// Finds the first whole chunk at or after a position.
+/// Finds the first complete chunk at or after a position.
 bool ChunkReader::find(int64_t from, Found& found, ChunkHeader& header) {
     for (int64_t at = from; at >= 0; at = find_kind(at + 1)) {
         if (!read_at(at, header)) {
-            wasted_ += kBlock;  // its block is read again from at + 1
+            wasted_ += kBlock;  // the block is read again from at + 1
             continue;
         }
         found = {at, at + header_size() + header.size, at - from, header.number, Chunk::Place::own};
@@ -178,9 +178,9 @@ const Chunk* ChunkReader::next() {
     return give(header, found);
 }
 
-/// Finds all chunks in the rest of the file, and sorts them by number. Of several chunks with the
-/// same number, the first is used; foreign chunks stay behind the chunk that they follow in the
-/// file.
+/// Finds all chunks in the rest of the file and sorts them by number. If several chunks have the
+/// same number, the first of them is used. A foreign chunk stays behind the chunk that it follows
+/// in the file.
 void ChunkReader::look_through(const Found& first, const ChunkHeader& header) {
     looked_ = true;
     auto last = static_cast<uint32_t>(due_ - 1);

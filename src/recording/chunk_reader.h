@@ -1,10 +1,10 @@
-// Reads the chunks of a log in the order in which they were written, whatever has happened to the
-// file since: it may contain damaged bytes, and chunks may be foreign, duplicated, missing or out
-// of place.
+// Reads the chunks of a log in the order in which they were written, even if the file has been
+// damaged since: it may contain corrupted bytes, and chunks may be foreign, duplicated, missing or
+// out of place.
 //
-// The file is read from its beginning as long as each chunk is the expected one. At the first
-// unexpected chunk, the rest of the file is searched once, and then read in the order of the
-// chunks' numbers. Logs of version 1, whose chunks have no numbers, are read in file order.
+// The file is read from its beginning for as long as each chunk is the expected one. At the first
+// unexpected chunk, the rest of the file is searched once for chunks, which are then read in order
+// of their numbers. Logs of version 1, whose chunks have no numbers, are read in file order.
 #pragma once
 
 #include <cstdint>
@@ -23,11 +23,11 @@ struct ChunkPlace {
     uint32_t number = 0;
 };
 
-/// A whole chunk.
+/// A complete chunk.
 struct Chunk {
     enum class Place {
-        own,        ///< the next existing chunk
-        moved,      ///< the next existing chunk, but stored after later ones
+        own,        ///< the next chunk of this log
+        moved,      ///< the next chunk of this log, but stored after later chunks
         doubled,    ///< a chunk with the same number was read before
         foreign,    ///< the chunk belongs to another session
         after_end,  ///< the chunk lies after the end mark
@@ -35,36 +35,38 @@ struct Chunk {
     uint32_t kind = 0;
     Place place = Place::own;
     ChunkPlace in_file;
-    int64_t bytes = 0;    ///< including the header
-    int64_t damaged = 0;  ///< bytes before the chunk in the file that belong to no whole chunk
-    int64_t missing = 0;  ///< number of chunks missing between the previous one and this one
+    int64_t bytes = 0;    ///< size including the header
+    int64_t damaged = 0;  ///< number of bytes before the chunk that belong to no complete chunk
+    int64_t missing = 0;  ///< number of chunks missing between the previous chunk and this one
     std::vector<std::byte> payload;
 };
 
 class ChunkReader {
   public:
-    /// Throws Error if the file is not a log, or if its head cannot be read.
+    /// Throws Error if the file is not a log or if its head cannot be read.
     explicit ChunkReader(const std::string& file);
 
     const std::vector<std::byte>& head() const { return head_; }
-    /// Returns the next chunk, valid until the next call; null at the end.
+    /// Returns the next chunk, which is valid until the next call, or null at the end.
     const Chunk* next();
-    /// Share of the file that has been read, from 0 to 1.
+    /// Fraction of the file that has been read, from 0 to 1.
     double share() const;
 
-    /// Positions of the chunks with frames, in order. Of an intact log, only the headers are read;
-    /// a damaged log is read completely.
+    /// Returns the positions of the chunks that contain frames, in order. In an intact log only the
+    /// headers are read; a damaged log is read completely.
     std::vector<ChunkPlace> places() const;
     /// Makes next() continue with this chunk.
     void go_to(const ChunkPlace& place);
-    /// The position of the chunk with frames that follows `last` (null: the first one), in a file
-    /// that may still be growing; nullopt as long as the chunk is incomplete.
+    /// Returns the position of the next frame chunk after `last`, or of the first frame chunk if
+    /// `last` is null. The file may still be growing; the result is nullopt as long as that chunk
+    /// is incomplete.
     std::optional<ChunkPlace> following(const ChunkPlace* last);
 
-    /// After the end: number of bytes after the last whole chunk.
+    /// Number of bytes after the last complete chunk. Valid only once the end has been reached.
     int64_t tail() const { return file_.size() - end_; }
-    /// After the end: whether these bytes begin an incompletely written chunk; `bytes` is its
-    /// intended size, 0 if unknown.
+    /// Whether the bytes after the last complete chunk are the beginning of a chunk that was not
+    /// completely written; `bytes` becomes its intended size, or 0 if unknown. Valid only once the
+    /// end has been reached.
     bool tail_is_unfinished(int64_t& bytes) const;
 
   private:
@@ -72,7 +74,7 @@ class ChunkReader {
         int64_t at = 0;
         int64_t end = 0;
         int64_t damaged = 0;
-        uint32_t number = 0;  ///< of a foreign chunk: the number of the own chunk before it
+        uint32_t number = 0;  ///< for a foreign chunk: the number of the log's own chunk before it
         Chunk::Place place = Chunk::Place::own;
     };
     bool header_at(int64_t at, ChunkHeader& out) const;
@@ -91,10 +93,10 @@ class ChunkReader {
     uint64_t session_ = 0;
     std::vector<std::byte> head_;
     int64_t first_ = 0;   // position of the first chunk after the head
-    int64_t end_ = 0;     // end of the last whole chunk in the file so far
-    int64_t wasted_ = 0;  // bytes that were read in vain
-    uint64_t due_ = 0;    // number of the chunk that comes next
-    bool done_ = false;   // the end mark was read
+    int64_t end_ = 0;     // end of the last complete chunk found so far
+    int64_t wasted_ = 0;  // number of bytes that were read in vain
+    uint64_t due_ = 0;    // number of the next expected chunk
+    bool done_ = false;   // whether the end mark was read
     bool looked_ = false;
     std::vector<Found> found_;
     size_t next_found_ = 0;

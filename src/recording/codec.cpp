@@ -12,7 +12,7 @@ using frame::Frame;
 
 static_assert(sizeof(Vec3) == 24 && sizeof(Quat) == 32 && sizeof(Time) == 8);
 
-/// The size of a field in the log.
+/// Size of a field in the log [bytes].
 template <class T>
 constexpr bool kIsField =
     std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3> || std::is_same_v<T, Quat>;
@@ -47,8 +47,8 @@ class Writer {
     size_t size() const { return fits_ ? used_ : 0; }
 
   private:
-    /// Counts in the log have 16 bits. A frame with more items is dropped and reported, because it
-    /// could not be written correctly.
+    /// Counts are stored as 16-bit numbers. A frame with more items is dropped and reported,
+    /// because it cannot be written correctly.
     void fit(size_t count) { fits_ = fits_ && count <= std::numeric_limits<uint16_t>::max(); }
     template <class T>
     void put(const T& value) {
@@ -67,7 +67,7 @@ class Writer {
 }  // namespace
 
 size_t most_bytes(const Layout& layout, size_t contacts) {
-    // measured on a frame that contains everything
+    // the size is measured on a frame with the largest number of items in every list
     Frame frame;
     frame.fingers.resize(layout.fingers);
     frame.turns.resize(layout.turns);

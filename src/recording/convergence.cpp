@@ -15,7 +15,7 @@ std::string Convergence::describe() const {
                   "the contact solver missed its tolerance of 1e-08 in {} of {}, in at "
                   "most {} in a row",
                   missed, all, longest_run);
-    // zero if no finger touched anything
+    // the residual is zero if no finger touched anything
     if (held_residual.value_or(0) > 0) {
         out += fmt::format("; its largest residual at touched objects was {:.1g}", *held_residual);
         if (missed > 0 && held_residual_time)

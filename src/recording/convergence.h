@@ -1,4 +1,4 @@
-// How well the contact solver converged over a whole session.
+// Describes how well the contact solver converged over a whole session.
 #pragma once
 
 #include <limits>
@@ -12,9 +12,9 @@ namespace dihaptic::recording {
 struct Convergence {
     int ticks = 0;        ///< number of ticks recorded
     int missed = 0;       ///< number of ticks in which the solver missed its tolerance
-    int longest_run = 0;  ///< longest run of such ticks
-    /// Largest Frame::solver_held_residual, and the time of its tick [s]; none: it was not
-    /// recorded.
+    int longest_run = 0;  ///< largest number of consecutive missed ticks
+    /// Largest Frame::solver_held_residual, and the time of the tick in which it occurred [s];
+    /// nullopt if it was not recorded.
     std::optional<double> held_residual, held_residual_time;
 
     template <class Visitor>
@@ -26,7 +26,7 @@ struct Convergence {
         v("held_residual_time", held_residual_time, Field::of(Quantity::time));
     }
 
-    /// A sentence with these figures, even if the tolerance was never missed.
+    /// Returns these figures as a sentence, even if the solver never missed its tolerance.
     std::string describe() const;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 using frame::Frame;
 
-/// Size of a type that a schema names, such as "float64[3]"; nullopt if it is not a type.
+/// Size of a type named in a schema, such as "float64[3]"; nullopt if `type` is not a type.
 std::optional<size_t> bytes_of(std::string_view type) {
     const size_t digits = std::min(type.find_first_of("0123456789"), type.size());
     const std::string_view kind = type.substr(0, digits);
@@ -39,12 +39,13 @@ std::string first_word(const std::string& line) {
 
 /// A field of a Frame, or of an item of one of its lists.
 struct Member {
-    std::string line;  ///< the field's line in the schema
-    size_t at = 0;     ///< offset in the Frame or the item
+    std::string line;  ///< the line that describes the field in the schema
+    size_t at = 0;     ///< offset of the field in the Frame or the item
     bool recorded = false;
 };
 
-/// Finds the member with this line in the schema, and marks it as recorded; null if there is none.
+/// Finds the member described by this line of the schema, and marks it as recorded. Returns null if
+/// there is none.
 template <class Members>
 auto* recorded(Members& members, const std::string& line) {
     const auto found = std::find_if(members.begin(), members.end(),
@@ -56,13 +57,13 @@ auto* recorded(Members& members, const std::string& line) {
 
 }  // namespace
 
-/// Lists the fields of a Frame: their lines in the schema, and their offsets in memory.
+/// Lists the fields of a Frame, with their schema lines and their offsets in memory.
 class FrameDecoder::Members {
   public:
     struct OfList {
         std::string line;
         Target target;
-        std::vector<Member> fields;  ///< fields of an item
+        std::vector<Member> fields;  ///< fields of each item in the list
         bool recorded = false;
     };
 
@@ -121,12 +122,12 @@ class FrameDecoder::Members {
     std::vector<Member>* into_ = &fields;
 };
 
-/// The bytes of an encoded frame, which are consumed from the front.
+/// The bytes of an encoded frame, read from front to back.
 class FrameDecoder::Source {
   public:
     explicit Source(std::span<const std::byte> bytes) : rest_(bytes) {}
 
-    /// Copies the next bytes to where they belong; false if there are too few.
+    /// Copies the next bytes to their places in memory; returns false if too few bytes are left.
     bool take(const std::vector<Piece>& pieces, std::byte* to) {
         for (const Piece& piece : pieces) {
             if (rest_.size() < piece.size) return false;
@@ -148,7 +149,7 @@ class FrameDecoder::Source {
     std::span<const std::byte> rest_;
 };
 
-/// Reads a schema line by line, and notes which of its fields exist in a Frame.
+/// Reads a schema line by line and notes which of its fields exist in a Frame.
 class FrameDecoder::Builder {
   public:
     Builder(FrameDecoder& out, const std::string& file) : out_(out), file_(file) {
@@ -175,7 +176,7 @@ class FrameDecoder::Builder {
         for (const Member& field : members_.fields) {
             if (field.recorded) continue;
             out_.missing_.push_back(first_word(field.line));
-            // Without these, frames cannot be told apart.
+            // Without these two fields, frames cannot be told apart.
             if (field.line.starts_with("sequence ") || field.line.starts_with("time "))
                 throw unreadable();
         }
@@ -232,8 +233,7 @@ class FrameDecoder::Builder {
     FrameDecoder& out_;
     std::string file_;
     Members members_;
-    Members::OfList* list_ =
-        nullptr;  // the list whose items follow; null if a Frame does not have it
+    Members::OfList* list_ = nullptr;  // the current list; null if a Frame has no such list
     std::string list_name_;
 };
 
@@ -255,7 +255,7 @@ bool FrameDecoder::read_list(const List& list, Source& source, std::byte* frame)
     return true;
 }
 
-/// Reads the items that changed; the others keep their values.
+/// Reads the items that changed; all others keep their values.
 bool FrameDecoder::read_changed(const List& list, Source& source, std::byte* frame) {
     uint16_t count = 0;
     if (!source.take(count)) return false;

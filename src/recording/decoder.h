@@ -1,6 +1,6 @@
-// Reads frames according to the schema in their log, so that recordings outlive the program that
-// made them. A field that is only in the log is skipped; a field that is only in Frame keeps its
-// default.
+// Reads frames according to the schema stored in their log, so that recordings remain readable by
+// later versions of the program. A field that exists only in the log is skipped; a field that
+// exists only in Frame keeps its default value.
 #pragma once
 
 #include <cstddef>
@@ -15,35 +15,36 @@ namespace dihaptic::recording {
 
 class FrameDecoder {
   public:
-    /// Throws Error, which names `file`, if the text is not a schema of frames.
+    /// Throws an Error that names `file` if `schema` is not a schema of frames.
     FrameDecoder(const std::string& schema, const std::string& file);
 
-    /// Decodes a frame over the previous one; false if the bytes are not a frame of this layout.
+    /// Decodes a frame over the previous one. Returns false if the bytes are not a frame with this
+    /// layout.
     bool decode(std::span<const std::byte> in, const Layout& layout, frame::Frame& frame) const;
 
-    /// Fields of a Frame that the log does not have, such as "force_sent of fingers".
+    /// Frame fields that are missing from the log, such as "force_sent of fingers".
     const std::vector<std::string>& missing() const { return missing_; }
-    /// Fields of the log that a Frame does not have.
+    /// Fields in the log that do not exist in a Frame.
     const std::vector<std::string>& unknown() const { return unknown_; }
 
   private:
-    /// Bytes that are adjacent both in the log and in the Frame, or in the item of one of its
-    /// lists.
+    /// A run of bytes that are adjacent both in the log and in memory (in the Frame or in a list
+    /// item).
     struct Piece {
         size_t size = 0;
-        std::optional<size_t> to;  ///< offset in the Frame or the item; unset: skipped
+        std::optional<size_t> to;  ///< offset in the Frame or the item; nullopt if skipped
     };
-    /// A list of a Frame, whatever the type of its items.
+    /// A list within a Frame, whatever the type of its items.
     struct Target {
         size_t at = 0;      ///< offset of the list in the Frame
-        size_t which = 0;   ///< offset of the list of changed indices, for lists that have one
-        size_t stride = 0;  ///< bytes from one item to the next
+        size_t which = 0;   ///< offset of the list of changed indices, if the list has one
+        size_t stride = 0;  ///< distance between consecutive items [bytes]
         size_t (*size)(const std::byte* list) = nullptr;
-        /// Resizes the list, and returns its first item.
+        /// Resizes the list and returns its first item.
         std::byte* (*resize)(std::byte* list, size_t count) = nullptr;
     };
     struct List {
-        bool changed = false;  ///< the log has only the items that changed, with their indices
+        bool changed = false;  ///< the log contains only the items that changed, with their indices
         size_t item_bytes = 0;
         std::vector<Piece> pieces;
         std::optional<Target> target;  ///< unset: skipped

@@ -7,7 +7,7 @@
 namespace dihaptic::recording {
 namespace {
 
-/// Whether i is an index below `count`, or -1 for none.
+/// Whether i is an index below `count`, or -1, which means none.
 bool is_index(int32_t i, size_t count) noexcept {
     return i >= -1 && i < static_cast<int64_t>(count);
 }
@@ -32,7 +32,7 @@ bool is_possible(const frame::ContactFrame& contact, size_t all) noexcept {
            is_index(contact.b, all);
 }
 
-/// The index to which an item refers.
+/// Returns the index to which an item refers.
 template <class Item>
 int32_t index_of(const Item& item) noexcept {
     if constexpr (requires { item.body; })
@@ -73,7 +73,7 @@ bool is_possible(const frame::TaskFrame& task, const Layout& layout) noexcept {
 }  // namespace
 
 bool is_possible(const frame::Frame& frame, const Layout& layout) noexcept {
-    // no session is longer than this; sums and differences of such times cannot overflow
+    // no session is longer than this, so sums and differences of such times cannot overflow
     constexpr Time kLongest = std::chrono::hours(1000);
     constexpr int64_t kMostTicks = int64_t{1} << 40;
     const size_t all = layout.bodies + layout.fingers;

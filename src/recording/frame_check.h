@@ -1,6 +1,6 @@
-// Checks whether a frame that was read can belong to its session: every index in it must refer to
-// an existing item. A correct checksum does not guarantee this, since the data may never have been
-// a frame.
+// Checks whether a frame that was read from a log can belong to its session: every index in the
+// frame must refer to an existing item. A correct checksum does not guarantee this, since the data
+// may never have been a valid frame.
 #pragma once
 
 #include "recording/codec.h"

@@ -1,5 +1,5 @@
-// FrameRow is one item of a frame's list as numbers, in the order of session.nwb's columns:
-// vectors are x, y, z, quaternions w, x, y, z. It is a visitor.
+// FrameRow is a visitor that turns one item of a frame's list into numbers, in the order of the
+// columns in session.nwb: vectors as x, y, z; quaternions as w, x, y, z.
 #pragma once
 
 #include <type_traits>

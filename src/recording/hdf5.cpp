@@ -8,13 +8,13 @@ namespace dihaptic::recording::hdf5 {
 namespace {
 
 constexpr hsize_t kChunkRows = 4096;
-constexpr unsigned kDeflate = 3;  // with shuffling; higher levels take much time for little gain
+constexpr unsigned kDeflate = 3;  // compression level; higher ones take longer for little gain
 
-/// Why an HDF5 call has failed in this thread since its last create_file(), if any has.
+/// Why an HDF5 call has failed in this thread since the thread's last create_file(), if any has.
 thread_local std::optional<WriteFailure> failure;
 
-/// Keeps the system's message from HDF5's stack of errors: "errno = 28, error message = 'No space
-/// left on device'".
+/// Stores the system's message found in HDF5's error stack, such as "errno = 28, error message =
+/// 'No space left on device'".
 void note_failure() {
     if (failure) return;
     failure.emplace("HDF5 gives no reason", 0);
@@ -181,7 +181,7 @@ Rows::Rows(hid_t parent, const std::string& name, size_t columns, Numbers number
     const int rank = columns == 1 ? 1 : 2;
     const hsize_t none[2] = {0, columns};
     const hsize_t most[2] = {H5S_UNLIMITED, columns};
-    const hsize_t chunk[2] = {kChunkRows, 1};  // one column each, which compresses better
+    const hsize_t chunk[2] = {kChunkRows, 1};  // single columns, which compress better
     const Id space(H5Screate_simple(rank, none, most));
     const Id create(H5Pcreate(H5P_DATASET_CREATE));
     check(H5Pset_chunk(create, rank, chunk));

@@ -1,5 +1,4 @@
-// Wraps the few parts of HDF5's C interface that session.nwb needs, with handles that close
-// themselves.
+// Wraps the few parts of HDF5's C interface that session.nwb needs. Handles close themselves.
 #pragma once
 
 #include <hdf5.h>
@@ -10,18 +9,20 @@
 
 namespace dihaptic::recording::hdf5 {
 
-// HDF5 crashes when it closes objects that it could not write for lack of space, at the latest at
-// the program's end. Therefore, once a call has failed, its thread closes nothing until it calls
-// create_file() again, and nothing is closed at the program's end either. The leak is small, and
-// the file's space is released when it is truncated to zero length, as write_nwb() does.
+// If the disk is full, HDF5 crashes when it closes objects that it could not write, or at the
+// latest when the program ends. Therefore, once a call has failed, the thread closes nothing until
+// it calls create_file() again, and nothing is closed at program exit either. The leak is small,
+// and the file's disk space is released when the file is truncated to zero length, as write_nwb()
+// does.
 
-/// The reason why a file could not be written, and the system's errno; 0 if HDF5 gives none.
+/// The reason why a file could not be written, with the system's errno, or 0 if HDF5 gives none.
 struct WriteFailure : std::runtime_error {
     WriteFailure(const std::string& why, int number) : std::runtime_error(why), error(number) {}
     int error;
 };
 
-/// Owns an identifier of any kind. Throws WriteFailure when HDF5 gave an invalid one.
+/// Owns an HDF5 identifier of any kind. Throws WriteFailure when HDF5 returned an invalid
+/// identifier.
 class Id {
   public:
     Id() = default;
@@ -38,13 +39,13 @@ class Id {
 };
 
 Id create_file(const std::string& path);
-/// Writes all buffered data. Call it while all objects are still open, since closing them cannot
-/// throw.
+/// Writes all buffered data. To be called while all objects are still open, because closing an
+/// object cannot report an error.
 void flush(hid_t file);
-/// Closes the file; everything in it must be closed. Throws WriteFailure unless the whole file was
-/// written.
+/// Closes the file, in which no object may be open any more. Throws WriteFailure unless the whole
+/// file was written.
 void close(Id file);
-/// Number of rows of a dataset in a file; -1 if there is no such dataset, or it cannot be read.
+/// Number of rows in a dataset of a file; -1 if there is no such dataset or if it cannot be read.
 int64_t rows_of(const std::string& file, const std::string& dataset);
 Id create_group(hid_t parent, const std::string& name);
 
@@ -66,13 +67,14 @@ enum class Numbers {
     whole,  ///< 64-bit integers
 };
 
-/// A compressed dataset that grows as rows are added. With one column it is one-dimensional.
+/// A compressed dataset that grows as rows are added. If it has only one column, the dataset is
+/// one-dimensional.
 class Rows {
   public:
     Rows(hid_t parent, const std::string& name, size_t columns, Numbers numbers = Numbers::real);
 
     void add(const double* row);
-    /// Writes the buffered rows; call it before the file is closed.
+    /// Writes the buffered rows; must be called before the file is closed.
     void flush();
     hid_t dataset() const { return dataset_; }
     size_t count() const { return written_ + buffer_.size() / columns_; }

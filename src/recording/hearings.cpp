@@ -26,7 +26,7 @@ std::vector<Hearing> read_hearings(const SessionFolder& folder) {
     if (!is_there(file) || std::filesystem::file_size(file, unreadable) == 0) return {};
     std::vector<Hearing> out;
     for (const Hearing& hearing : rows::RowFile<Hearing>(file)) {
-        // the last line may be cut off, if the program was killed
+        // the last line may be incomplete if the program was killed
         if (hearing.tick >= 0 && std::isfinite(hearing.heard)) out.push_back(hearing);
     }
     return out;

@@ -1,5 +1,5 @@
-// Writes and reads heard.csv, with the time when each sound of a session was heard. It is written
-// while the session runs.
+// Writes and reads heard.csv, which contains the time at which each sound of a session was heard.
+// The file is written while the session runs.
 #pragma once
 
 #include <fstream>
@@ -15,8 +15,8 @@ namespace dihaptic::recording {
 struct Hearing {
     int64_t tick = -1;  ///< tick that requested the sound
     std::string sound;
-    double asked = kUnmeasured;  ///< the tick's session time [s]
-    double heard = kUnmeasured;  ///< session time at which its first sample was heard [s]
+    double asked = kUnmeasured;  ///< session time of that tick [s]
+    double heard = kUnmeasured;  ///< session time at which the sound's first sample was heard [s]
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
@@ -31,16 +31,16 @@ class HearingsWriter {
   public:
     explicit HearingsWriter(const SessionFolder& folder) : file_(folder.file("heard.csv")) {}
     void add(const Hearing& hearing);
-    /// Passes added rows to the system, so that they survive the end of this program.
+    /// Hands the added rows to the operating system, so that they survive a crash of this program.
     void flush() { out_.flush(); }
 
   private:
     std::string file_;
-    std::ofstream out_;  // opened with the first sound
+    std::ofstream out_;  // opened when the first sound is added
 };
 
-/// The session's sounds, in the order in which they were heard; empty if it had none, or if they
-/// were not played.
+/// Returns the session's sounds in the order in which they were heard; empty if there were none, or
+/// if sounds were not played.
 std::vector<Hearing> read_hearings(const SessionFolder& folder);
 
 }  // namespace dihaptic::recording

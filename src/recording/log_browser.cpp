@@ -7,10 +7,11 @@
 namespace dihaptic::recording {
 namespace {
 
-/// A target less than this far ahead is reached by reading on [s].
+/// A frame less than this far ahead is reached by reading on rather than by seeking [s].
 constexpr double kNear = 0.3;
 /// Every chunk contains one frame that lists all bodies (recorder.h). In a log written by the
-/// recorder's thread it need not be the first, so reading starts this many chunks earlier.
+/// recorder's thread, this need not be the chunk's first frame, so reading starts this many chunks
+/// earlier.
 constexpr size_t kBefore = 2;
 
 }  // namespace
@@ -24,7 +25,7 @@ LogBrowser::LogBrowser(const std::string& file)
     if (ahead_ == nullptr) throw Error({file, 0}, "", "has no frame", "Give another session.");
     begin_ = end_ = seconds(ahead_->time);
     take();
-    // a chunk that cannot be read yields no last frame
+    // if the last chunk cannot be read, an earlier one determines the end
     for (size_t k = chunks_.size(); k-- > 0 && end_ == begin_;) {
         scout_.go_to(chunks_[k]);
         while (const frame::Frame* frame = scout_.next()) end_ = seconds(frame->time);
@@ -41,7 +42,7 @@ double LogBrowser::time_of(size_t chunk) {
     return time;
 }
 
-/// The last chunk that begins at or before a time.
+/// Returns the index of the last chunk that begins at or before a time.
 size_t LogBrowser::chunk_at(double time) {
     size_t low = 0, high = chunks_.size();
     while (high - low > 1) {
@@ -82,7 +83,7 @@ void LogBrowser::take() {
     read_on();
 }
 
-/// Reads the next frame, from later chunks if this chunk has no more.
+/// Reads the next frame, moving on to later chunks at the end of this one.
 void LogBrowser::read_on() {
     ahead_ = reader_.next();
     while (ahead_ == nullptr && chunk_ < chunks_.size()) {

@@ -1,5 +1,5 @@
-// Finds the frame of any moment of a log, for programs that browse a session: each chunk can be
-// read by itself.
+// Finds the frame at any moment of a log, for programs that browse a session. Each chunk can be
+// read on its own.
 #pragma once
 
 #include <string>
@@ -11,17 +11,17 @@ namespace dihaptic::recording {
 
 class LogBrowser {
   public:
-    /// Throws Error if the file is not a log, or has no frame.
+    /// Throws Error if the file is not a log or contains no frame.
     explicit LogBrowser(const std::string& file);
 
     const LogHead& head() const { return reader_.head(); }
-    /// Times of the first and of the last frame [s].
+    /// Times of the first and the last frame [s].
     double begin() const { return begin_; }
     double end() const { return end_; }
-    /// The newest frame at a time [s]; the first frame, if the time is before it. Valid until the
-    /// next call.
+    /// Returns the last frame at or before `time` [s], or the first frame if `time` is before it.
+    /// Valid until the next call.
     const frame::Frame& at(double time);
-    /// The frame after the last one returned; null at the end.
+    /// Returns the frame after the last one returned, or null at the end.
     const frame::Frame* next();
 
   private:
@@ -32,9 +32,9 @@ class LogBrowser {
     void read_on();
 
     RawLogReader reader_;
-    RawLogReader scout_;  // reads the times of chunks
+    RawLogReader scout_;  // reads the times at which chunks begin
     std::vector<ChunkPlace> chunks_;
-    std::vector<double> times_;  // times of the chunks' first frames; NaN if not yet known [s]
+    std::vector<double> times_;  // time of each chunk's first frame; NaN if not known yet [s]
     double begin_ = 0;
     double end_ = 0;
     size_t chunk_ = 0;                     // the chunk that reader_ reads next

@@ -72,7 +72,7 @@ std::string describe(const Stray& stray) {
 }
 
 void describe_gaps(std::vector<std::string>& out, const LogHealth& health) {
-    constexpr size_t kMostGaps = 10;  // a longer list would not help
+    constexpr size_t kMostGaps = 10;  // number of gaps listed; a longer list would not help
     for (size_t i = 0; i < health.gaps.size() && i < kMostGaps; ++i) {
         const Gap& gap = health.gaps[i];
         out.push_back(fmt::format("{} missing from tick {} on, between {:.3f} s and {:.3f} s: {}",

@@ -1,5 +1,5 @@
-// Records who moved the hand in a session. All files, tables and pages take this information from
-// here, so that simulated data are never mistaken for a person's.
+// Records who or what moved the hand in a session. All files, tables and pages take this
+// information from here, so that simulated data are never mistaken for data from a person.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@
 namespace dihaptic::recording {
 
 enum class Mover {
-    not_recorded,       ///< an earlier version did not record it
+    not_recorded,       ///< recorded by an earlier version, which did not store the mover
     devices,            ///< a person held the devices
-    mouse,              ///< a person moved simulated devices by mouse
+    mouse,              ///< a person moved simulated devices with the mouse
     recorded_movement,  ///< a recorded movement pulled the fingers of simulated devices
-    script,             ///< the file's script moved simulated devices
+    script,             ///< the script in the file moved simulated devices
     simulated_person    ///< a simulated person moved simulated devices
 };
 constexpr auto enum_names(Mover) {
@@ -26,11 +26,11 @@ constexpr auto enum_names(Mover) {
 struct MovedBy {
     Mover mover = Mover::not_recorded;
     // for a simulated person
-    std::string program;     ///< program that simulated the person: name and version
-    std::string population;  ///< population that the person was drawn from
-    std::string seed;        ///< seed with which the person was drawn
+    std::string program;     ///< name and version of the program that simulated the person
+    std::string population;  ///< population from which the person was drawn
+    std::string seed;        ///< seed used to draw the person
 
-    /// Whether a person moved the hand, at a device or by mouse.
+    /// Whether a person moved the hand, either with a device or with the mouse.
     bool person() const { return mover == Mover::devices || mover == Mover::mouse; }
     bool known() const { return mover != Mover::not_recorded; }
     /// "yes" or "no"; "" if not recorded.
@@ -49,16 +49,16 @@ struct MovedBy {
     }
 };
 
-/// The columns `simulated` and `moved_by`, which come last in each table about people.
+/// The columns `simulated` and `moved_by`, which are the last columns of every table about people.
 extern const std::array<Table::Column, 2> kMovedByColumns;
 
-/// Adds these columns to the table, with the same values in all rows.
+/// Appends these columns to the table, with the same values in every row.
 Table marked(Table table, const MovedBy& by);
 
-/// Prefix of the identifiers of simulated people.
+/// Prefix of the IDs of simulated people.
 constexpr const char* kSimulatedPrefix = "sim-";
 
-/// Identifier of a simulated person: `id` with the prefix "sim-", which is added if it is missing;
+/// ID of a simulated person: `id` with the prefix "sim-", which is added if it is missing;
 /// "sim-001" if `id` is empty.
 std::string simulated_id(const std::string& id);
 

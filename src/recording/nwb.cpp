@@ -29,7 +29,7 @@ using hdf5::Id;
 using hdf5::write_attribute;
 using hdf5::write_dataset;
 
-/// Random UUID (version 4), which NWB requires for every object.
+/// Returns a random UUID (version 4), which NWB requires for every object.
 std::string new_uuid() {
     static std::mt19937_64 engine{std::random_device{}()};
     const uint64_t a = (engine() & ~0xF000ULL) | 0x4000ULL;
@@ -44,7 +44,7 @@ void mark(hid_t object, const std::string& type, const std::string& space = "cor
     write_attribute(object, "object_id", new_uuid());
 }
 
-/// NWB's words for SI units; other units keep their symbols.
+/// NWB uses words for SI units; other units keep their symbols.
 std::string nwb_unit(const std::string& unit) {
     static const std::map<std::string, std::string> kWords{{"m", "meters"},
                                                            {"m/s", "meters/second"},
@@ -57,10 +57,10 @@ std::string nwb_unit(const std::string& unit) {
     return found == kWords.end() ? unit : found->second;
 }
 
-/// One series, with a value for each tick.
+/// A time series with a value for every tick.
 class Series {
   public:
-    /// `frame`: the frame in whose axes positions are given; "" if the quantity is not a position.
+    /// `frame` is the frame in which positions are expressed; "" if the quantity is not a position.
     Series(hid_t acquisition, const std::string& name, size_t columns, const std::string& unit,
            const std::string& description, const std::string& frame,
            hdf5::Numbers numbers = hdf5::Numbers::real)
@@ -95,7 +95,7 @@ class Series {
     hdf5::Rows rows_;
 };
 
-/// Describes a quantity, and its axes.
+/// Describes a quantity and its axes.
 std::string words_of(const frame::Term& term) {
     const std::string frame = term.frame;
     const char* const axes = frame == "W"   ? " In the world's axes."
@@ -104,7 +104,7 @@ std::string words_of(const frame::Term& term) {
     return std::string(term.meaning) + axes;
 }
 
-/// The columns of a list's table, in the order of a FrameRow.
+/// The columns of a list's table, in the order used by FrameRow.
 class ListColumns {
   public:
     struct Column {
@@ -128,9 +128,9 @@ class ListColumns {
     std::vector<Column> columns;
 };
 
-/// A list with any number of items per tick becomes a table with a row for each item. As a series
-/// it would often have more columns than rows, and readers of NWB would take its columns for points
-/// in time.
+/// A list whose number of items varies between ticks becomes a table with one row per item. As a
+/// series, such a list would often have more columns than rows, and NWB readers would mistake its
+/// columns for points in time.
 class ListTable {
   public:
     ListTable(hid_t acquisition, const std::string& name, const std::string& meaning,
@@ -168,8 +168,8 @@ class ListTable {
     std::vector<hdf5::Rows> columns_;
 };
 
-/// Turns frames into series, one for each field that Frame::visit() names. The first frame creates
-/// them.
+/// Converts frames into series, one for each field that Frame::visit() names. The series are
+/// created when the first frame is added.
 class FrameExporter {
   public:
     FrameExporter(hid_t acquisition, const RawLogReader& log)
@@ -190,7 +190,7 @@ class FrameExporter {
         for (auto& [name, list] : lists_) list.close();
     }
 
-    // as a visitor
+    // called by Frame::visit() for each field
     template <class T>
     void operator()(const T& value, const frame::Term& term) {
         if constexpr (!std::is_same_v<T, Time>) {
@@ -213,7 +213,8 @@ class FrameExporter {
                  const std::vector<uint16_t>&, const char*) {
         each_of(head_.bodies, name, bodies);
     }
-    /// Writes each list of variable length to a table, created at its first item.
+    /// Writes each list of variable length to a table, which is created when its first item
+    /// arrives.
     template <class T>
     void each(const char* name, const std::vector<T>& items, const char* meaning) {
         for (const T& item : items) {
@@ -245,7 +246,7 @@ class FrameExporter {
         }
         list_ = nullptr;
     }
-    /// Adds the row to the next series.
+    /// Appends the current row to the next series.
     void put(const frame::Term& term, hdf5::Numbers numbers) {
         if (next_ == series_.size()) {
             const size_t columns = row_.numbers.size();
@@ -283,7 +284,7 @@ class FrameExporter {
     std::vector<std::string> not_recorded_;
     std::vector<std::string> turning_;
     const char* list_ = nullptr;         // the list being visited
-    const std::string* item_ = nullptr;  // name of its item
+    const std::string* item_ = nullptr;  // name of the list item being visited
     std::vector<Series> series_;
     size_t next_ = 0;
     std::vector<double> times_;
@@ -292,7 +293,7 @@ class FrameExporter {
     FrameRow row_;
 };
 
-/// Columns with counts or numbers of items.
+/// Whether a column contains counts or indices.
 bool is_whole(const std::string& column) {
     return column == "trial" || column == "attempt" || column.ends_with("_num") ||
            column == "trial_num_in_block";
@@ -313,7 +314,8 @@ Id write_column(hid_t group, const std::string& name, const Table& table, size_t
     return write_dataset(group, name, std::vector<int64_t>(numbers.begin(), numbers.end()));
 }
 
-/// A DynamicTable (or TimeIntervals) from a table; columns whose cells are all numbers are numeric.
+/// Writes a table as a DynamicTable (or TimeIntervals); a column is numeric if all of its cells are
+/// numbers.
 void write_dynamic_table(hid_t parent, const std::string& name, const Table& table,
                          const std::string& type, const std::string& space,
                          const std::string& description) {
@@ -342,7 +344,7 @@ void write_dynamic_table(hid_t parent, const std::string& name, const Table& tab
     }
 }
 
-/// Fingers, bodies and joints, so that a reader does not need the log as well.
+/// Lists the fingers, bodies and joints, so that readers of the file do not need the log as well.
 Table items_of(const LogHead& head) {
     Table out{
         {{"list", "fingers, turns (fingers whose devices measure orientation), bodies, joints"},
@@ -358,7 +360,7 @@ Table items_of(const LogHead& head) {
     return out;
 }
 
-/// The study, as far as it is known.
+/// Writes what is known about the study.
 void write_study(hid_t general, const Study& study) {
     if (!study.experimenters.empty()) write_dataset(general, "experimenter", study.experimenters);
     if (!study.institution.empty()) write_dataset(general, "institution", study.institution);
@@ -406,7 +408,7 @@ void write_head(hid_t file, const SessionInfo& info) {
     write_dataset(file, "file_create_date", std::vector<std::string>{iso_now()});
 }
 
-/// The whole file, under any name.
+/// Writes the whole file, under any name.
 void write_file(const std::string& name, const std::string& session, RawLogReader& log,
                 const NwbContent& content, const std::function<void(double)>& progress) {
     Id file = hdf5::create_file(name);
@@ -445,7 +447,8 @@ void write_file(const std::string& name, const std::string& session, RawLogReade
     hdf5::close(std::move(file));
 }
 
-/// Releases the space of a failed file, because HDF5 may still hold it open when it is removed.
+/// Frees the disk space of a file that could not be written, because HDF5 may keep the file open
+/// even after it is removed.
 struct Emptied {
     std::string name;
     ~Emptied() {
@@ -475,7 +478,7 @@ void write_nwb(const SessionFolder& folder, const NwbContent& content,
         throw failed(e.what(), e.error);
     }
     try {
-        sync_to_disk(output.path());  // only then does every file system report that it is full
+        sync_to_disk(output.path());  // some file systems report only now that they are full
     } catch (const Error& e) {
         throw failed(e.problems().front().what, 0);
     }
@@ -484,7 +487,7 @@ void write_nwb(const SessionFolder& folder, const NwbContent& content,
 }
 
 int64_t ticks_in_nwb(const SessionFolder& folder) {
-    std::error_code unreadable;  // checked because HDF5 would wait for a pipe
+    std::error_code unreadable;  // ignored; HDF5 would wait for a pipe, hence this check
     if (!std::filesystem::is_regular_file(folder.nwb(), unreadable)) return -1;
     return hdf5::rows_of(folder.nwb(), "acquisition/status/data");
 }

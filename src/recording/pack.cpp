@@ -8,7 +8,7 @@
 namespace dihaptic::recording {
 namespace {
 
-/// Level 3 would take twice the time and save two percent of the length.
+/// Compression level. Level 3 would take twice as long and make the result only 2 % smaller.
 constexpr int kLevel = 1;
 
 }  // namespace
@@ -41,7 +41,7 @@ std::span<const std::byte> Packer::pack() {
         from += size_t{block.records} * block.bytes;
     }
     packed_.resize(ZSTD_compressBound(transposed_.size()));
-    // This cannot fail: there is room for the worst case.
+    // This cannot fail: the buffer has room for the worst case.
     packed_.resize(ZSTD_compressCCtx(context_.get(), packed_.data(), packed_.size(),
                                      transposed_.data(), transposed_.size(), kLevel));
     records_.clear();
@@ -56,7 +56,7 @@ Unpacker::Unpacker()
 
 std::optional<std::span<const std::byte>> Unpacker::unpack(std::span<const std::byte> packed) {
     const unsigned long long size = ZSTD_getFrameContentSize(packed.data(), packed.size());
-    // The codes for an unknown size and for an error are larger than any size.
+    // The return values for an unknown size and for an error are larger than any size.
     if (size > kMostUnpacked) return std::nullopt;
     transposed_.resize(size);
     const size_t got = ZSTD_decompressDCtx(context_.get(), transposed_.data(), transposed_.size(),
@@ -68,13 +68,13 @@ std::optional<std::span<const std::byte>> Unpacker::unpack(std::span<const std::
 bool Unpacker::restore(std::span<const std::byte> blocks) {
     records_.clear();
     while (!blocks.empty()) {
-        uint32_t head[2];  // number of records, and bytes of each
+        uint32_t head[2];  // number of records, and size of each record [bytes]
         if (blocks.size() < sizeof(head)) return false;
         std::memcpy(head, blocks.data(), sizeof(head));
         blocks = blocks.subspan(sizeof(head));
         const size_t records = head[0];
         const size_t bytes = head[1];
-        // A block could claim any number of empty records.
+        // Without this check, a block could claim any number of empty records.
         if (records == 0 || bytes == 0 || blocks.size() / bytes < records) return false;
         const size_t first = records_.size();
         const size_t stride = sizeof(uint32_t) + bytes;

@@ -19,7 +19,7 @@
 namespace dihaptic::recording {
 namespace {
 
-/// A chunk that had to wait for the disk is written once it has this length [bytes].
+/// If the disk was busy, a waiting chunk is written once it reaches this length [bytes].
 constexpr size_t kLongChunk = 8u << 20;
 
 void write_all(int descriptor, const void* data, size_t size, const std::string& file) {
@@ -37,9 +37,10 @@ void write_all(int descriptor, const void* data, size_t size, const std::string&
     }
 }
 
-/// Checks the setup, because names become parts of file names, and counts become sizes of buffers.
+/// Checks the setup, because its names become parts of file names and its counts become buffer
+/// sizes.
 void check_head(const LogHead& head, const std::string& file) {
-    constexpr size_t kMost = 65535;  // bodies are counted by two bytes
+    constexpr size_t kMost = 65535;  // counts of bodies are stored in two bytes
     const auto check = [&](const char* key, const std::vector<std::string>& names) {
         std::set<std::string> all;
         bool good = names.size() <= kMost;
@@ -155,7 +156,7 @@ const LogHealth& RawLogReader::read_to_end() {
     return health_;
 }
 
-/// The next chunk's records; false at the log's end.
+/// Reads the records of the next chunk; returns false at the end of the log.
 bool RawLogReader::read_chunk() {
     const Chunk* chunk = chunks_.next();
     if (chunk == nullptr) {
@@ -169,7 +170,7 @@ bool RawLogReader::read_chunk() {
         health_.note(Stray::Kind::after_end, 1, damaged_ + chunk->bytes);
         damaged_ = 0;
     } else if (chunk->place == Place::foreign || chunk->kind == kHead) {
-        // only logs of version 1, whose chunks name no session, can have a second head here
+        // only in version 1, whose chunks name no session, can a second head appear here
         const bool doubled = chunk->place == Place::doubled;
         health_.note(doubled ? Stray::Kind::doubled : Stray::Kind::foreign, 1, chunk->bytes);
     } else if (chunk->place == Place::doubled) {
@@ -221,14 +222,15 @@ void RawLogReader::note_end() {
     int64_t wanted = 0;
     health_.unfinished = chunks_.tail_is_unfinished(wanted);
     health_.tail_bytes = bytes;
-    health_.tail_ticks = ticks_in(wanted > 0 ? wanted : bytes);  // by its intended size, if known
+    health_.tail_ticks = ticks_in(wanted > 0 ? wanted : bytes);  // the intended size, if known
 }
 
 int64_t RawLogReader::ticks_in(int64_t bytes) const {
     return read_bytes_ == 0 ? 0 : bytes * health_.frames / read_bytes_;
 }
 
-/// Sets unknown values of bodies to NaN: of all bodies, or of the bodies that this frame lacks.
+/// Sets unknown values of bodies to NaN, either for all bodies or only for the bodies that are not
+/// in this frame.
 void RawLogReader::forget_bodies(bool all) {
     const Vec3 unknown = Vec3::Constant(kUnmeasured);
     for (size_t i = 0; i < frame_.bodies.size(); ++i) {
@@ -250,7 +252,7 @@ void RawLogReader::note_frame() {
     if (missing > 0) {
         health_.gaps.push_back(
             {health_.last_tick + 1, missing, health_.last_time, frame_.time, damaged_, gone_});
-        forget_bodies(false);  // these bodies may have moved
+        forget_bodies(false);  // bodies that are not in this frame may have moved
     } else if (damaged_ > 0) {
         health_.note(Stray::Kind::no_chunk, 0, damaged_);
     }
@@ -260,8 +262,8 @@ void RawLogReader::note_frame() {
     health_.last_time = frame_.time;
 }
 
-/// Reads the next record; false unless it is a frame of this session that can follow the previous
-/// one.
+/// Reads the next record. Returns false unless the record is a frame of this session that can
+/// follow the previous frame.
 bool RawLogReader::read_frame() {
     uint32_t length = 0;
     if (rest_.size() >= sizeof(length)) std::memcpy(&length, rest_.data(), sizeof(length));

@@ -1,18 +1,19 @@
-// Writes and reads raw.log, the record of a session while it runs. It is append-only, in chunks
-// that carry a checksum, their session and their number (chunk.h), so that everything written
-// before a crash can be read afterwards, and nothing else is mistaken for the session's data.
+// Writes and reads raw.log, the recording made while a session runs. The file is only ever appended
+// to, in chunks that contain a checksum, the session's hash and the chunk's number (chunk.h).
+// Therefore everything written before a crash can be read afterwards, and no other data are
+// mistaken for the session's.
 //
 //   kinds   head: YAML (layout, tick, names, setup, schema)   first chunk
 //           data: records, each u32 length and a frame (codec.h, schema.h)
 //           pack: such records, packed (pack.h); the kind written today
 //           done: i64 number of frames                   last chunk of a session that ended
 //
-// A damaged chunk is skipped: the reader continues with the next one. The first frame of a chunk
-// that was written in place contains all bodies; values of bodies that are unknown after a gap are
-// NaN.
+// A damaged chunk is skipped: the reader continues with the next chunk. In a log written without a
+// recorder thread, the first frame of each chunk contains all bodies. Body values that are unknown
+// after a gap are NaN.
 //
-// The log contains only the session's results, so that the same session gives the same file. On the
-// real clock no two sessions are the same, and the head's identity is random.
+// The log contains only the session's results, so that the same session always gives the same file.
+// On the real clock no two sessions are the same, and the identity stored in the head is random.
 #pragma once
 
 #include <algorithm>
@@ -31,14 +32,14 @@
 
 namespace dihaptic::recording {
 
-/// The description of a session in the head of its log.
+/// The description of a session that is stored in the head of its log.
 struct LogHead : Setup {
     double tick = 1e-3;  ///< [s]
     std::vector<std::string> fingers;
     std::vector<std::string> bodies;  ///< bodies of the scene
     std::vector<std::string> joints;  ///< joints of the scene
 
-    /// Fingers whose devices measure orientation, in order.
+    /// Returns the fingers whose devices measure orientation, in order.
     std::vector<std::string> turning_fingers() const {
         std::vector<std::string> out;
         for (const DeviceRecord& device : devices) {
@@ -64,21 +65,21 @@ struct LogHead : Setup {
 
 class RawLogWriter {
   public:
-    /// Creates the file. Throws Error if it exists or cannot be written.
+    /// Creates the file. Throws Error if the file exists already or cannot be written.
     RawLogWriter(const std::string& file, const LogHead& head);
     ~RawLogWriter();
     RawLogWriter(const RawLogWriter&) = delete;
     RawLogWriter& operator=(const RawLogWriter&) = delete;
 
-    /// Adds an encoded frame to the chunk that is being filled. Throws Error if the disk is full.
+    /// Adds an encoded frame to the current chunk. Throws Error if the disk is full.
     void add(std::span<const std::byte> frame);
-    /// Packs the chunk and passes it to the operating system; from then on it survives the end of
+    /// Packs the current chunk and hands it to the operating system, so that it survives a crash of
     /// this program.
     void flush();
-    /// Synchronises the written data to the disk; from then on they survive a loss of power. May be
+    /// Synchronises the written data to the disk, so that they survive a power failure. May be
     /// called from any thread until finish(). Throws Error if the disk fails.
     void sync() const;
-    /// Writes the end mark, and synchronises.
+    /// Writes the end mark and synchronises the file to the disk.
     void finish();
 
     int64_t frames() const { return frames_; }
@@ -96,27 +97,30 @@ class RawLogWriter {
 
 class RawLogReader {
   public:
-    /// Throws Error if the file is not a log, or does not describe the contents of its frames.
+    /// Throws Error if the file is not a log or if it does not describe the contents of its frames.
     explicit RawLogReader(const std::string& file);
 
     const LogHead& head() const { return head_; }
-    /// Returns the next frame, valid until the next call; null at the end of the readable part.
+    /// Returns the next frame, which is valid until the next call, or null at the end of the
+    /// readable part.
     const frame::Frame* next();
-    /// The findings so far. Statements about the end are valid once next() has returned null.
+    /// What has been found so far. Information about the end is valid only once next() has returned
+    /// null.
     const LogHealth& health() const { return health_; }
-    /// Reads the rest of the log, and returns the findings.
+    /// Reads the rest of the log and returns what was found.
     const LogHealth& read_to_end();
-    /// Share of the file that has been read, from 0 to 1.
+    /// Fraction of the file that has been read, from 0 to 1.
     double share() const { return chunks_.share(); }
 
-    /// Positions of the chunks with frames, in order.
+    /// Returns the positions of the chunks that contain frames, in order.
     std::vector<ChunkPlace> places() const { return chunks_.places(); }
-    /// The position of the chunk with frames that follows `last` (null: the first one), in a log
-    /// that may still be growing; nullopt as long as the chunk is incomplete.
+    /// Returns the position of the next frame chunk after `last`, or of the first frame chunk if
+    /// `last` is null. The log may still be growing; the result is nullopt as long as that chunk is
+    /// incomplete.
     std::optional<ChunkPlace> following(const ChunkPlace* last) { return chunks_.following(last); }
-    /// Makes next() return the frames of this chunk alone. `follows`: the chunk directly follows
-    /// the last one read, so that bodies keep their state; otherwise the findings of health() are
-    /// discarded.
+    /// Makes next() return the frames of only this chunk. `follows` states that the chunk directly
+    /// follows the last one read, so that bodies keep their state; otherwise everything noted in
+    /// health() is discarded.
     void go_to(const ChunkPlace& place, bool follows = false);
 
   private:
@@ -136,13 +140,13 @@ class RawLogReader {
     Layout layout_;
     std::optional<FrameDecoder> decoder_;
     Unpacker unpacker_;
-    std::span<const std::byte> rest_;  // the remaining records of the chunk
+    std::span<const std::byte> rest_;  // remaining records of the current chunk
     bool ended_ = false;
     frame::Frame frame_;
     LogHealth health_;
-    int64_t damaged_ = 0;     // damaged bytes since the last frame
-    int64_t gone_ = 0;        // missing chunks since the last frame
-    int64_t read_bytes_ = 0;  // bytes of the chunks whose frames were read
+    int64_t damaged_ = 0;     // number of damaged bytes since the last frame
+    int64_t gone_ = 0;        // number of missing chunks since the last frame
+    int64_t read_bytes_ = 0;  // size of the chunks whose frames were read
 };
 
 }  // namespace dihaptic::recording

@@ -6,12 +6,13 @@
 namespace dihaptic::recording {
 namespace {
 
-/// Largest number of contacts of a frame, which determines the size of its buffer.
+/// Largest number of contacts that a recorded frame may have; it determines the size of the frame's
+/// buffer.
 size_t most_contacts(const LogHead& head) {
     return 64 + 8 * (head.fingers.size() + head.bodies.size());
 }
 
-/// Room for a second of frames, while the disk is busy.
+/// Capacity of the ring: one second of frames, to bridge times when the disk is busy.
 size_t ring_frames(const LogHead& head) {
     return static_cast<size_t>(std::ceil(1 / head.tick));
 }
@@ -59,7 +60,7 @@ void Recorder::record(const frame::Frame& frame) {
         log_.add(bytes);
     }
     if (!taken) dropped_.fetch_add(1, std::memory_order_relaxed);
-    whole_next_ = !taken;  // the next frame must not build on a missing one
+    whole_next_ = !taken;  // the next frame must be complete if this one was lost
     if (whole) last_whole_ = frame.time;
 }
 

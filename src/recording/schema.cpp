@@ -5,7 +5,7 @@
 namespace dihaptic::recording {
 namespace {
 
-/// Lists the fields, visiting one item of each list.
+/// Lists the fields of a Frame, visiting one item of each list.
 class Lister {
   public:
     template <class T>

@@ -1,5 +1,6 @@
-// The schema of a log has a line for each field of its frames, in the order of their bytes, with
-// name, type and unit. It is in the head of the log, and decoder.h reads the log according to it.
+// The schema of a log has a line for each field of its frames, with the field's name, type and
+// unit, in the order in which the fields are stored. The schema is part of the log's head;
+// decoder.h uses it to read the log.
 //
 //   grip_force float64 N
 //   fingers uint16 count, then each:
@@ -17,7 +18,7 @@
 
 namespace dihaptic::recording {
 
-/// The text after the name of a list.
+/// The text that follows the name of a list.
 constexpr const char* kEachFollows = "uint16 count, then each:";
 constexpr const char* kChangedFollow =
     "uint16 count, then uint16 index and item of each that changed:";
@@ -35,7 +36,7 @@ constexpr const char* type_name() {
     return "";
 }
 
-/// The line of a field, and of a list, without its indentation.
+/// Returns the line that describes a field or a list, without its indentation.
 template <class T>
 std::string schema_line(const frame::Term& term) {
     return std::string(term.name) + " " + type_name<T>() + " " + term.unit;
@@ -44,7 +45,7 @@ inline std::string schema_line(const char* list, bool changed) {
     return std::string(list) + " " + (changed ? kChangedFollow : kEachFollows);
 }
 
-/// The schema of the frames that this program writes.
+/// Returns the schema of the frames that this program writes.
 std::string schema();
 
 }  // namespace dihaptic::recording

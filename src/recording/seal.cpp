@@ -16,15 +16,14 @@ namespace {
 
 constexpr std::string_view kMade[] = {"trials.csv", "phases.csv",      "episodes.csv", "lifts.csv",
                                       "events.csv", "corrections.csv", "fault.csv"};
-/// Tables made before the first tick, or while the session ran.
+/// Tables written before the first tick or while the session ran.
 constexpr std::string_view kGiven[] = {"procedures.csv", "trials-before.csv", "movement-faults.csv",
                                        "settings.csv",   "shown.csv",         "head.csv",
                                        "heard.csv"};
 /// Every session has this table, but versions before 0.3 did not seal it.
 constexpr std::string_view kSealedLater = "settings.csv";
 
-/// Number of rows of a table in a CSV file, without its header; text in quotes may span several
-/// lines.
+/// Number of rows in a CSV file, not counting the header; a quoted cell may span several lines.
 int rows_of(std::string_view csv) {
     int lines = 0;
     bool quoted = false;
@@ -36,7 +35,7 @@ int rows_of(std::string_view csv) {
     return std::max(0, lines - 1);
 }
 
-/// Throws Error when the file cannot be read.
+/// Computes the seal of a table. Throws Error when the file cannot be read.
 TableSeal seal_of(const SessionFolder& folder, const std::string& name) {
     const std::string csv = read_bytes(folder.file(name), kMostTable);
     return {name, rows_of(csv), checksum_of(csv)};
@@ -47,7 +46,7 @@ const TableSeal* find(const SessionInfo& info, std::string_view name) {
     return found == info.tables.end() ? nullptr : &*found;
 }
 
-/// The seal of session.yaml itself.
+/// Computes the seal of session.yaml itself.
 std::string seal_of(const SessionInfo& info) {
     std::string all = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", info.identity, info.participant.id,
                                   info.seed, info.program, enum_name(info.state), info.ticks);
@@ -65,7 +64,7 @@ std::string remedy_for(const SessionFolder& folder, bool can_be_made) {
            "simulated person took part, remove the folder and repeat the rehearsal's command.";
 }
 
-/// The fault of a table; "" if it is intact.
+/// Describes what is wrong with a table; "" if it is intact.
 std::string fault_of(const SessionFolder& folder, std::string_view name, const TableSeal* sealed) {
     const std::string file(name);
     const bool there = is_there(folder.file(file));

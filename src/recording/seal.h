@@ -1,7 +1,7 @@
-// Detects whether the tables of a session, its session.nwb, or its description in session.yaml
-// changed after it ended. Each chunk of raw.log has a checksum, but a rehearsal keeps no log, and
-// those who analyse a session often have no log either. The files are therefore sealed in
-// session.yaml:
+// Detects whether a session's tables, its session.nwb or its description in session.yaml were
+// changed after the session ended. Each chunk of raw.log has a checksum, but a rehearsal keeps no
+// log, and people who analyse a session often do not have the log either. The files are therefore
+// sealed in session.yaml:
 //
 //   tables:                        for each table, its rows and a checksum of its bytes
 //     - { file: trials.csv, rows: 24, checksum: 0a1b2c3d }
@@ -9,8 +9,8 @@
 //   seal: 4e5f6a7b                 a checksum of session.yaml's own data (identity, participant,
 //                                  seed, program, state, ticks, inputs) and of the list above
 //
-// Checksums reveal damage, a spreadsheet that saved a table instead of only displaying it, and
-// files of another session. They do not prevent forgery: whoever forges a table can seal it too.
+// The checksums reveal damage, tables that a spreadsheet program saved again, and files of another
+// session. They do not prevent forgery: whoever forges a table can also compute its seal.
 #pragma once
 
 #include <span>
@@ -22,35 +22,36 @@
 
 namespace dihaptic::recording {
 
-/// The sealed tables that can be made again from raw.log.
+/// The sealed tables that can be rebuilt from raw.log.
 std::vector<std::string> tables_from_log();
-/// The sealed tables that were made before the first tick, or while the session ran.
+/// The sealed tables that were written before the first tick or while the session ran.
 std::vector<std::string> other_tables();
 
-/// Seals the current state of a session's tables and of its session.nwb. The latter's seal is for
-/// those who read that file: the program itself reads raw.log instead. Tables that were made before
-/// the session's first tick or while it ran, and that are already in `info.tables`, keep their
-/// seal, because they cannot be made again.
+/// Seals the current state of a session's tables and of its session.nwb. The seal of session.nwb is
+/// meant for people who read that file; the program itself reads raw.log instead. Tables that were
+/// written before the first tick or while the session ran, and that are already in `info.tables`,
+/// keep their seal, because they cannot be rebuilt.
 void seal(const SessionFolder& folder, SessionInfo& info);
 
-/// Forgets the seal of a table that was rebuilt although raw.log does not contain it; seal() then
-/// makes a new one.
+/// Removes the seal of a table that was rebuilt although raw.log does not contain its data; seal()
+/// then computes a new seal.
 void unseal(SessionInfo& info, std::string_view name);
 
-/// Whether the session has seals. A running session has none, nor has one recorded by an older
-/// version.
+/// Whether the session has seals. Sessions that are still running have none, and neither do
+/// sessions recorded by an older version.
 bool is_sealed(const SessionInfo& info);
 
-/// A problem if session.yaml has a seal that does not match.
+/// Returns a problem if session.yaml has a seal that does not match its contents.
 std::vector<Problem> broken_own_seal(const SessionFolder& folder, const SessionInfo& info,
                                      Severity severity);
 
-/// A problem for each mismatch: session.yaml's own seal, and each table that was cut, changed,
-/// removed or added since. None if there are no seals. `only`: the tables that matter; empty: all.
+/// Returns a problem for each mismatch: session.yaml's own seal, and each table that was truncated,
+/// changed, removed or added since the session ended. Returns none if the session has no seals.
+/// `only` lists the tables to check; if it is empty, all tables are checked.
 std::vector<Problem> broken_seals(const SessionFolder& folder, const SessionInfo& info,
                                   Severity severity, std::span<const std::string_view> only = {});
 
-/// Like broken_seals(), for the tables that cannot be made again from raw.log.
+/// Like broken_seals(), but only for tables that cannot be rebuilt from raw.log.
 std::vector<Problem> broken_for_good(const SessionFolder& folder, const SessionInfo& info,
                                      Severity severity);
 

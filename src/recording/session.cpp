@@ -23,10 +23,11 @@ namespace dihaptic::recording {
 namespace fs = std::filesystem;
 namespace {
 
-/// Last line of session.yaml (YAML's end-of-document mark): a file without it was cut off.
+/// Last line of session.yaml (the end-of-document mark of YAML); a file without this line is
+/// incomplete.
 constexpr const char* kEnd = "...\n";
 
-/// Text of the file; "" if it cannot be read.
+/// Returns the text of the file, or "" if it cannot be read.
 std::string text_of(const std::string& file) {
     try {
         return read_bytes(file, kMostYaml);
@@ -35,10 +36,10 @@ std::string text_of(const std::string& file) {
     }
 }
 
-/// Reads as much YAML as possible from a text without its last line or its last few lines, because
-/// a line that was cut off may have a wrong meaning.
+/// Reads as much YAML as possible from a text. The last line or last few lines are left out,
+/// because the meaning of an incomplete line may be wrong.
 Node first_lines(std::string text) {
-    // each attempt reads all lines again
+    // every attempt parses the remaining lines again
     constexpr int kMostAttempts = 100;
     constexpr size_t kMostRead = 1'000'000;  // bytes
     size_t read = 0;
@@ -58,11 +59,11 @@ Node first_lines(std::string text) {
 
 struct ReadablePart {
     Node node = Node::mapping();
-    bool given_up = false;  ///< too many keys were damaged: the rest was not examined
+    bool given_up = false;  ///< whether so many keys were damaged that the rest was not examined
 };
 
-/// The readable part of a damaged session.yaml: all intact keys, and the first lines of the damaged
-/// ones.
+/// Returns the readable part of a damaged session.yaml: all intact keys, and the first lines of the
+/// damaged keys.
 ReadablePart readable_part(const std::string& text) {
     ReadablePart out;
     const auto take = [&](const Node& part) {
@@ -71,7 +72,7 @@ ReadablePart readable_part(const std::string& text) {
     const auto begins_key = [&](size_t at) {
         return std::isalpha(static_cast<unsigned char>(text[at])) != 0;
     };
-    constexpr size_t kLongest = 1'000'000;  // bytes in a key; the program writes none this long
+    constexpr size_t kLongest = 1'000'000;  // longest key [bytes]; the program writes none as long
     constexpr int kMostDamaged = 100;
     int damaged = 0;
     for (size_t from = 0, to = 0; from < text.size(); from = to) {
@@ -97,7 +98,7 @@ std::string iso(const std::tm& local) {
     return fmt::format("{:%Y-%m-%dT%H:%M:%S}{}:{}", local, offset.substr(0, 3), offset.substr(3));
 }
 
-/// The start of a session according to its folder's name; "" if the folder was renamed.
+/// Returns the start time stated in the session folder's name; "" if the folder was renamed.
 std::string start_by_name(const std::string& path) {
     const std::string name = fs::weakly_canonical(path).filename().string();
     std::tm local{};
@@ -110,7 +111,7 @@ std::string start_by_name(const std::string& path) {
 }  // namespace
 
 SessionFolder SessionFolder::open_with(const std::string& path, const char* file) {
-    std::error_code unreadable;  // is_there() below then fails too
+    std::error_code unreadable;  // ignored: if the file is unreadable, is_there() below fails too
     std::string folder =
         fs::is_regular_file(path, unreadable) ? fs::path(path).parent_path().string() : path;
     while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
@@ -143,7 +144,7 @@ SessionFolder SessionFolder::create(const std::string& parent, const std::string
         throw Error({"--out", 0}, "", "does not name a folder",
                     "Name one, or omit --out: sessions then go to 'sessions'.");
     }
-    constexpr size_t kLongest = 250;  // most file systems allow 255; "_2" may follow
+    constexpr size_t kLongest = 250;  // most file systems allow 255 bytes; "_2" may be appended
     if (own.size() > kLongest) {
         throw Error(
             "the name of the session's folder, from date, experiment and participant, would have "
@@ -153,7 +154,7 @@ SessionFolder SessionFolder::create(const std::string& parent, const std::string
     }
     try {
         fs::create_directories(parent);
-        // two sessions within a second get different names
+        // two sessions that start within a second get different names
         for (int n = 1; n < 10000; ++n) {
             const std::string path = n == 1 ? stem : fmt::format("{}_{}", stem, n);
             if (fs::create_directory(path)) return SessionFolder(path);
@@ -193,7 +194,7 @@ SessionInfo SessionFolder::read_info(const Setup& setup, Diagnostics& diagnostic
         return *whole;
     }
     SessionInfo info;
-    Diagnostics ignored;  // the file is known to be damaged
+    Diagnostics ignored;  // not reported: the file is already known to be damaged
     const ReadablePart part = readable_part(text_of(file("session.yaml")));
     read_fields(info, part.node, ignored);
     static_cast<Setup&>(info) = setup;
@@ -235,7 +236,7 @@ void SessionFolder::sync() const {
     for (fs::directory_iterator i(path_, failed), end; !failed && i != end; i.increment(failed)) {
         if (i->is_regular_file(failed)) sync_to_disk(i->path().string());
     }
-    // the folder's name is stored in its parent folder, whose own name may be just as new
+    // the folder's name is stored in its parent folder, which may itself have been created just now
     for (fs::path folder = fs::absolute(path_, failed); !folder.empty() && !failed;
          folder = folder.parent_path()) {
         sync_to_disk(folder.string());
@@ -287,7 +288,7 @@ std::vector<Problem> SessionFolder::changed(const std::vector<InputFile>& inputs
 
 SessionLock::SessionLock(const SessionFolder& folder)
     : descriptor_(::open(folder.raw_log().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-    // a file system without locks offers nothing to wait for
+    // if the file system does not support locks, there is nothing to wait for
     if (!descriptor_ || ::flock(descriptor_.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
         return;
     throw Error({folder.path(), 0}, "", "is in use: another dihaptic is recording or recovering it",

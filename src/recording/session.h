@@ -5,9 +5,9 @@
 //   settings.csv                       every setting with its origin
 //   raw.log                            every tick
 //
-// and at its end (or after `dihaptic recover`) also session.nwb, trials.csv, phases.csv,
-// episodes.csv and events.csv. The state in session.yaml changes from running last of all, when all
-// files exist.
+// When the session has ended (or after `dihaptic recover`), the folder also contains session.nwb,
+// trials.csv, phases.csv, episodes.csv and events.csv. The state in session.yaml remains "running"
+// until all files exist.
 #pragma once
 
 #include <climits>
@@ -43,7 +43,7 @@ struct Participant {
     }
 };
 
-/// Something that a study asks its participants besides age, sex and handedness.
+/// Something that a study records about its participants besides age, sex and handedness.
 struct Fact {
     std::string name;
     std::string value;
@@ -58,12 +58,12 @@ struct Fact {
 /// The place of a session in a study.
 struct InStudy {
     std::string study;        ///< title
-    int version = 0;          ///< of the study's files
-    std::string group;        ///< name, or the code that conceals it
-    int number = 0;           ///< of the participant in the group
+    int version = 0;          ///< version of the study's files
+    std::string group;        ///< name of the group, or the code that conceals it
+    int number = 0;           ///< number of the participant within the group
     std::string session;      ///< name
-    std::string condition;    ///< empty: the session has none
-    std::vector<Fact> facts;  ///< of the participant
+    std::string condition;    ///< empty if the session has no condition
+    std::vector<Fact> facts;  ///< facts about the participant
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -77,11 +77,11 @@ struct InStudy {
     }
 };
 
-/// The state of a table when the session ended.
+/// The state of a table at the end of its session.
 struct TableSeal {
     std::string file;      ///< name in the session's folder
-    int rows = 0;          ///< without its header
-    std::string checksum;  ///< CRC-32, in hexadecimal
+    int rows = 0;          ///< number of rows, not counting the header
+    std::string checksum;  ///< CRC-32 in hexadecimal
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -93,21 +93,21 @@ struct TableSeal {
 
 struct SessionInfo : Setup {
     SessionState state = SessionState::running;
-    int ticks = 0;             ///< number of ticks, once the session has ended; 0: not known
-    bool interrupted = false;  ///< the session ended early
-    std::string program;       ///< name and version
-    std::string started;       ///< ISO 8601 with offset
+    int ticks = 0;             ///< number of ticks, set once the session has ended; 0 if unknown
+    bool interrupted = false;  ///< whether the session ended early
+    std::string program;       ///< name and version of the program
+    std::string started;       ///< start time, as ISO 8601 with offset
     std::string command;       ///< as typed
     Participant participant;
-    std::optional<Participant> partner;  ///< the second participant of a task for two
-    std::optional<InStudy> in_study;     ///< none: the session does not belong to a study
+    std::optional<Participant> partner;  ///< the second participant in a task for two people
+    std::optional<InStudy> in_study;     ///< unset if the session does not belong to a study
     std::string resumes;                 ///< folder of the session that this one resumes
-    std::vector<std::string> notes;  ///< warnings given at the start, and findings of the recovery
+    std::vector<std::string> notes;  ///< warnings given at the start, and results of the recovery
     std::string finished;            ///< how the session ended, in words
     std::optional<Convergence>
-        convergence;                ///< once the session has ended; none before version 0.3
-    std::vector<TableSeal> tables;  ///< once the session has ended (recording/seal.h)
-    std::string seal;  ///< checksum of this file's own data, once the session has ended
+        convergence;                ///< set once the session has ended; missing before version 0.3
+    std::vector<TableSeal> tables;  ///< set once the session has ended (recording/seal.h)
+    std::string seal;  ///< checksum of this file's own data, set once the session has ended
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -136,9 +136,10 @@ class SessionFolder {
     /// Opens an existing folder, given by its path or by a file in it. Throws Error when it is not
     /// a session.
     static SessionFolder open(const std::string& path);
-    /// Opens a folder that may have no log, only tables made from it, like a rehearsal's.
+    /// Opens a folder that may lack a log and contain only tables, like a rehearsal's folder.
     static SessionFolder open_tables(const std::string& path);
-    /// Makes a new folder in `parent`, named by the time and `name`. Throws Error when this fails.
+    /// Creates a new folder in `parent`; its name consists of the current time and `name`. Throws
+    /// Error when this fails.
     static SessionFolder create(const std::string& parent, const std::string& name);
 
     const std::string& path() const { return path_; }
@@ -147,22 +148,23 @@ class SessionFolder {
     std::string nwb() const { return file("session.nwb"); }
 
     SessionInfo read_info() const;
-    /// Reads the intact part of session.yaml and completes it from `setup`, the log's head; warns
-    /// of the losses. Throws Error when the log belongs to another session.
+    /// Reads the intact part of session.yaml, completes it from `setup`, which is stored in the
+    /// log's head, and warns about what was lost. Throws Error when the log belongs to another
+    /// session.
     SessionInfo read_info(const Setup& setup, Diagnostics& diagnostics) const;
-    /// Throws Error when the log with this head belongs to a different session from session.yaml.
+    /// Throws Error if session.yaml and the log with this head belong to different sessions.
     void check_log(const SessionInfo& info, const Setup& setup) const;
-    /// The session's seed as a number. Throws Error when it is not a whole number.
+    /// Returns the session's seed as a number. Throws Error when the seed is not a whole number.
     uint64_t seed_of(const SessionInfo& info) const;
-    /// Writes session.yaml; even after a loss of power, either the old or the new file is there.
+    /// Writes session.yaml. Even after a power failure, either the old or the new file exists.
     void write_info(const SessionInfo& info) const;
-    /// Returns once all files of the folder, their names, and the folder's own name are on the
-    /// disk.
+    /// Returns once all files in the folder, their names, and the name of the folder itself are on
+    /// the disk.
     void sync() const;
 
-    /// The current state of a frozen input. Throws Error when it cannot be read.
+    /// Returns the current state of a frozen input. Throws Error when the input cannot be read.
     InputFile input(const std::string& name) const;
-    /// A problem for each input that has changed or is missing.
+    /// Returns a problem for each input that has changed or is missing.
     std::vector<Problem> changed(const std::vector<InputFile>& inputs, Severity severity) const;
 
   private:
@@ -171,8 +173,8 @@ class SessionFolder {
     std::string path_;
 };
 
-/// A lock held by the program that writes a session's files; a second program cannot obtain it. The
-/// lock ends with its program, however the program ends.
+/// A lock held by the program that writes a session's files, which no second program can obtain.
+/// The lock is released when its program ends for whatever reason.
 class SessionLock {
   public:
     /// Throws Error when another program holds the lock.
@@ -182,9 +184,9 @@ class SessionLock {
     Descriptor descriptor_;
 };
 
-/// The present time, as ISO 8601 with offset.
+/// Returns the current time as ISO 8601 with offset.
 std::string iso_now();
-/// Name and version of this program, e.g. "dihaptic 0.1.0".
+/// Returns the name and version of this program, e.g. "dihaptic 0.1.0".
 std::string program_version();
 
 }  // namespace dihaptic::recording

@@ -1,5 +1,5 @@
-// The description of a session, as known before its first tick. It is stored in session.yaml and in
-// the head of raw.log, so that the log alone can be replayed and recovered.
+// The description of a session before its first tick. It is stored both in session.yaml and in the
+// head of raw.log, so that the session can be replayed and recovered from the log alone.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace dihaptic::recording {
 
-/// A named stretch of a trial, timed by the session's clock.
+/// A named part of a trial, defined by session time.
 struct PhaseInfo {
     std::string name;
     double start = 0;  ///< time from the trial's beginning [s]
@@ -28,14 +28,14 @@ struct PhaseInfo {
     }
 };
 
-/// The device that held a finger.
+/// The device assigned to a finger.
 struct DeviceRecord : frame::DeviceInfo {
     std::string finger;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("finger", finger, Field::text().required());
-        // in recordings without this value, late ticks did not soften the coupling
+        // recordings without this value date from when late ticks did not soften the coupling
         if constexpr (requires { v.mentions("damping"); }) {
             if (!v.mentions("damping")) damping = std::numeric_limits<double>::infinity();
         }
@@ -43,10 +43,10 @@ struct DeviceRecord : frame::DeviceInfo {
     }
 };
 
-/// A frozen input, in its state at the start of the session.
+/// A frozen input, as it was at the start of the session.
 struct InputFile {
     std::string file;      ///< name in the session's folder
-    std::string checksum;  ///< CRC-32, in hexadecimal
+    std::string checksum;  ///< CRC-32 in hexadecimal
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -56,27 +56,27 @@ struct InputFile {
 };
 
 struct Setup {
-    std::string identity;  ///< unique; shows that session.yaml and raw.log belong together
+    std::string identity;  ///< unique ID that shows that session.yaml and raw.log belong together
     std::string title;
-    std::string experiment;  ///< name of the file
-    std::string clock;       ///< virtual or real
-    std::string seed;        ///< seed of everything random
-    std::string object;      ///< the body that summaries are about
+    std::string experiment;  ///< name of the experiment file
+    std::string clock;       ///< "virtual" or "real"
+    std::string seed;        ///< seed of all random numbers
+    std::string object;      ///< the body that summaries describe
     MovedBy moved_by;        ///< who moved the hand
     Study study;
     std::vector<DeviceRecord> devices;
-    std::vector<PhaseInfo> phases;       ///< phases of every trial
-    std::vector<std::string> outcomes;   ///< outcomes of trials, by their index in frames
+    std::vector<PhaseInfo> phases;       ///< phases of each trial
+    std::vector<std::string> outcomes;   ///< names of trial outcomes, by their index in frames
     std::vector<std::string> messages;   ///< messages to the person, by their index in frames
-    std::vector<std::string> variables;  ///< the task's variables, by their index in frames
-    std::vector<std::string> levels;  ///< numbers that procedures choose; in frames after variables
-    std::vector<std::string> answers;  ///< answers that states request; in frames after levels
-    std::vector<std::string> forms;    ///< by state: title and version of its form, if it has one
-    std::vector<std::string> pages;    ///< pages' texts or pictures, by their index in frames
-    std::vector<std::string> sounds;   ///< sounds' names, by their index in frames
+    std::vector<std::string> variables;  ///< the task's variables, in the order used in frames
+    std::vector<std::string> levels;     ///< levels chosen by procedures; in frames after variables
+    std::vector<std::string> answers;    ///< answers requested by states; in frames after levels
+    std::vector<std::string> forms;      ///< title and version of each state's form, if it has one
+    std::vector<std::string> pages;      ///< texts or pictures of pages, by their index in frames
+    std::vector<std::string> sounds;     ///< names of sounds, by their index in frames
     std::vector<InputFile> inputs;
 
-    /// Planned length of the session [s]; 0: not known.
+    /// Planned length of the session [s]; 0 if unknown.
     double planned() const { return phases.empty() ? 0 : phases.back().end; }
 
     template <class Visitor>

@@ -25,7 +25,7 @@ Showings::Showings(const SessionFolder& folder) {
     // the program may have been killed before it wrote the first line
     if (!is_there(file) || std::filesystem::file_size(file, unreadable) == 0) return;
     for (const Showing& showing : rows::RowFile<Showing>(file)) {
-        // the last line may be cut off, if the program was killed
+        // the last line may be incomplete if the program was killed
         if (showing.tick >= 0 && std::isfinite(showing.time)) showings_.push_back(showing);
     }
 }

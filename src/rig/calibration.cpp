@@ -16,12 +16,13 @@ namespace dihaptic::rig {
 namespace {
 
 constexpr size_t kFolds = 5;
-/// Samples are held out in stretches of time, since neighbours in time are nearly equal.
+/// Number of stretches of time into which the samples are divided. Whole stretches are held out,
+/// because neighbouring samples are nearly equal.
 constexpr size_t kStretches = 50;
-/// Smallest fraction of the link's directions d along any axis, as the least eigenvalue of the mean
-/// of d d^T: 1/3 if the directions are uniform.
+/// Smallest proportion of the link's directions d along any axis, measured by the smallest
+/// eigenvalue of the mean of d d^T, which is 1/3 if the directions are uniformly distributed.
 constexpr double kLeastTurned = 0.04;
-/// Above this spread the endpoints were not held by one link [m].
+/// If the spread is larger than this, the endpoints were not joined by a single link [m].
 constexpr double kMostSpread = 2e-3;
 constexpr double kMostSlips = 0.3;
 
@@ -79,7 +80,7 @@ void check_movement(const CalibrationInput& input, const CalibrationSolver& solv
     }
 }
 
-/// Throws Error if joint angles contradict a device's reported position.
+/// Throws Error if the joint angles contradict the position that the device reports.
 void check_joints(const CalibrationInput& input) {
     constexpr double kMostApart = 2e-3;  // rms [m]
     for (size_t i = 0; i < input.devices.size(); ++i) {
@@ -96,7 +97,7 @@ void check_joints(const CalibrationInput& input) {
         for (const auto& sample : input.jig_samples) {
             if (sample.device == i) add(sample.at);
         }
-        // a constant difference only moves the origin of D
+        // a constant difference would only move the origin of D
         Vec3 mean = Vec3::Zero();
         for (const Vec3& d : apart) mean += d / static_cast<double>(apart.size());
         std::vector<double> off;
@@ -111,8 +112,8 @@ void check_joints(const CalibrationInput& input) {
     }
 }
 
-/// Throws Error if the touched points are on a line, which leaves the devices' rotation
-/// about it undetermined.
+/// Throws Error if the touched points lie on a line, because the devices' rotation about that line
+/// would then be undetermined.
 void check_touches(const CalibrationInput& input) {
     std::vector<Vec3> points;
     for (const CalibrationInput::JigSample& sample : input.jig_samples)
@@ -133,7 +134,7 @@ void check_link(const CalibrationSolution& solution, double slips) {
         "the rig file's position, rotation, backend and links fit these devices.");
 }
 
-/// For each sample: 1 if it is used for fitting a fold, 0 if it is held out.
+/// Returns for each sample 1 if it is used for fitting a fold, and 0 if it is held out.
 std::vector<uint8_t> without(size_t count, size_t fold, size_t stretches) {
     std::vector<uint8_t> use(count, 1);
     for (size_t k = 0; k < count; ++k) use[k] = k * stretches / count % kFolds != fold;
@@ -156,7 +157,8 @@ DeviceCalibration part_of(const CalibrationInput::Device& device, const Correcti
     return out;
 }
 
-/// Mean distance of a device's endpoint from the first device's when held together [m].
+/// Mean distance between the endpoints of a device and the first device when they were held
+/// together [m].
 std::optional<double> together(const CalibrationInput& input, const CalibrationSolver& solver,
                                const CalibrationSolution& solution, size_t device) {
     double sum = 0;
@@ -179,15 +181,16 @@ Vec3 middle(const CalibrationSolver& solver, const CalibrationSolution& solution
            2;
 }
 
-/// Misfits of samples that the solution did not use.
+/// Misfits of the samples that were not used for the solution.
 struct HeldOut {
-    std::vector<double> along_link;  ///< along the link, without slips [m]
+    std::vector<double> along_link;  ///< misfits along the link, without slips [m]
     std::vector<double> off_jig;     ///< distances from the jig's points, without slips [m]
     size_t slips = 0;                ///< number of slips among the link's samples
 };
 
-/// Solves again without each fold, and evaluates the fold's samples with that solution. `all`: the
-/// solution from all samples. The residual of each of the link's samples goes to `out`.
+/// Solves again for each fold without the samples of that fold, and evaluates these samples with
+/// the solution. `all` is the solution from all samples. The residuals of the link's samples are
+/// stored in `out`.
 HeldOut judge_held_out(const CalibrationInput& input, const CalibrationSolver& solver,
                        const CalibrationSolution& all, CalibrationResult& out) {
     const size_t links = input.link_samples.size();
@@ -197,7 +200,7 @@ HeldOut judge_held_out(const CalibrationInput& input, const CalibrationSolver& s
     for (size_t fold = 0; fold < kFolds; ++fold) {
         const auto link = without(links, fold, kStretches);
         auto jig = std::vector<uint8_t>(touches, 1);
-        // a touched point is held out as a whole: its samples are nearly equal
+        // all samples of a touched point are held out together, because they are nearly equal
         for (size_t k = 0; k < touches; ++k) jig[k] = input.jig_samples[k].point % kFolds != fold;
         const CalibrationSolution part = solver.solve(all, link, jig);
         for (size_t k = 0; k < links; ++k) {
@@ -288,7 +291,7 @@ double across(const std::vector<Vec3>& points) {
 }
 
 CalibrationResult calibrate(const CalibrationInput& input) {
-    check_joints(input);  // first, since wrong links make a cloud look too small
+    check_joints(input);  // checked first, because wrong link lengths make a cloud look too small
     const CalibrationSolver solver(input);
     if (input.devices.size() > 1) {
         check_movement(input, solver);
@@ -320,7 +323,7 @@ CalibrationResult calibrate(const CalibrationInput& input) {
     calibration.link_length = all.length;
     calibration.link_rms = rms(held_out.along_link);
     calibration.link_worst = worst(held_out.along_link);
-    // the link shows one of three directions at a time, and all of them equally often
+    // the link shows one of three directions at a time, and each of them equally often
     calibration.agreement_rms = std::sqrt(3.0) * calibration.link_rms;
     if (touches > 0) {
         calibration.jig_rms = rms(held_out.off_jig);

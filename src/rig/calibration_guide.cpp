@@ -9,10 +9,10 @@
 namespace dihaptic::rig {
 namespace {
 
-constexpr uint64_t kSeed = 1;        // of the simulated hand's slips
-constexpr int kTouches = 25;         // samples of a point of the jig
-constexpr int kHeld = 50;            // samples of endpoints held together: a second
-constexpr double kMostMoved = 2e-3;  // largest change of their distance in that second [m]
+constexpr uint64_t kSeed = 1;        // seed for the slips of the simulated hand
+constexpr int kTouches = 25;         // number of samples for each point of the jig
+constexpr int kHeld = 50;            // number of samples of endpoints held together: one second
+constexpr double kMostMoved = 2e-3;  // largest allowed change of their distance [m]
 
 class CalibrationWay {
   public:
@@ -102,7 +102,7 @@ class CalibrationWay {
     GuidedSteps steps_;
 };
 
-/// Two endpoints for which the calibration gives the distance when they are held together.
+/// Two endpoints whose distance when held together is given by the calibration.
 struct Told {
     size_t first;   // finger
     size_t other;   // finger
@@ -133,7 +133,7 @@ CalibrationInput lead_calibration(const Rig& rig, const Guide& guide) {
     return simulate_calibration(rig, kSeed, [&](double share) {
         now.share = share;
         guide.show(now);
-        guide.done();  // throws if the person cancels
+        guide.done();  // throws if the person has cancelled
         return true;
     });
 }
@@ -159,7 +159,7 @@ std::vector<Together> check_together(const Rig& rig, const std::vector<std::stri
     std::vector<Told> told = told_together(rig, fingers);
     DeviceReader reader(devices, fingers);
     const std::vector<Pose> X_WD = poses(rig, fingers);
-    // without scales, which would separate endpoints that are together in the hand
+    // scales are left out, because they would separate endpoints that are together in the hand
     const auto p_W = [&](size_t k) {
         return Vec3(X_WD[k] *
                     (reader.readings()[k].p_DH / devices.info(static_cast<int>(k)).scale));

@@ -14,17 +14,17 @@ namespace dihaptic::rig {
 namespace {
 
 constexpr double kLink = 0.05;      // length of the link [m]
-constexpr double kCarry = 60;       // duration of carrying the link [s]
-constexpr double kRaise = 1.5;      // time from rest, and back [s]
-constexpr double kMove = 0.6;       // time from one point of the jig to the next [s]
-constexpr double kTouch = 0.4;      // time on a point of the jig [s]
-constexpr double kHold = 1;         // duration of holding endpoints together [s]
+constexpr double kCarry = 60;       // time for which the link is carried [s]
+constexpr double kRaise = 1.5;      // time to start from rest, and to return to it [s]
+constexpr double kMove = 0.6;       // time to move from one point of the jig to the next [s]
+constexpr double kTouch = 0.4;      // time spent on a point of the jig [s]
+constexpr double kHold = 1;         // time for which endpoints are held together [s]
 constexpr double kSlipping = 0.2;   // duration of a slip [s]
-constexpr double kSlips = 0.05;     // fraction of time with slips
+constexpr double kSlips = 0.05;     // fraction of the time during which slips occur
 constexpr double kSlipSize = 5e-3;  // largest displacement in a slip [m]
-constexpr double kMargin = 0.01;    // distance from the limit of the common workspace [m]
+constexpr double kMargin = 0.01;    // distance kept from the limits of the common workspace [m]
 
-/// Stiff fingers, as they hold a tool.
+/// The impedance of fingers that are as stiff as when they hold a tool.
 hand::Impedance firm() {
     hand::Impedance out;
     out.stiffness = 1e5;
@@ -42,8 +42,8 @@ class CalibrationHand final : public hand::Driver {
     struct Stretch {
         double start = 0;
         double end = 0;
-        size_t device = 0;  // device joined to the first, or touching the jig
-        int point = -1;     // point of the jig; -1: none
+        size_t device = 0;  // the device that is joined to the first, or that touches the jig
+        int point = -1;     // index of the point of the jig; -1 if there is none
         enum class What { link, jig, together } what = What::link;
     };
 
@@ -61,9 +61,9 @@ class CalibrationHand final : public hand::Driver {
                 add(kMove + kTouch, device, static_cast<int>(point), Stretch::What::jig);
             if (!jig.empty())
                 add(kMove, device, static_cast<int>(jig.size()),
-                    Stretch::What::jig);  // back to the middle
+                    Stretch::What::jig);  // return to the middle
         }
-        // fingers are held together in the middle, where all wait
+        // fingers are held together in the middle, where all of them wait
         for (size_t device = 1; device < devices; ++device)
             add(kMove + kHold, device, -1, Stretch::What::together);
         duration_ = t;
@@ -146,7 +146,7 @@ std::unique_ptr<devices::DeviceGroup> devices_of(const Rig& rig, const hand::Dri
     return make_devices(uncorrected(rig), held_fingers(rig), context);
 }
 
-/// The ball in which the link's centre can move with any direction of the link.
+/// The ball within which the link's centre can move, whatever the direction of the link.
 Ball common_ball(const Rig& rig) {
     const Workspace found = find_workspace(reaches(rig), [](double) { return true; });
     const Ball ball{found.sphere_centre, found.sphere_radius - kLink / 2 - kMargin};

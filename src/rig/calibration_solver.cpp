@@ -11,16 +11,17 @@ namespace {
 
 using Gradient = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 12>;
 
-// priors: standard deviations of a rig's faults
+// standard deviations of the priors for a rig's faults
 constexpr double kTurn = 0.2;    // [rad]
 constexpr double kShift = 0.05;  // [m]
 constexpr double kOffset = 0.2;  // [rad]
 constexpr double kStretch = 0.1;
-constexpr double kLeastSpread = 2e-6;  // below any device's encoders [m]
+constexpr double kLeastSpread = 2e-6;  // smaller than the resolution of any device's encoders [m]
 constexpr int kHuberSteps = 12;
 constexpr int kMostSteps = 80;
 
-/// Weight of a misfit; `ratio`: misfit over spread. `redescending`: Tukey's, else Huber's.
+/// Weight of a misfit; `ratio` is the misfit divided by the spread. Uses Tukey's function if
+/// `redescending`, and Huber's otherwise.
 double weight(double ratio, bool redescending) {
     constexpr double kHuber = 1.345;
     if (!redescending) return std::abs(ratio) <= kHuber ? 1 : kHuber / std::abs(ratio);
@@ -35,7 +36,7 @@ Mat3 cross_matrix(const Vec3& v) {
     return out;
 }
 
-/// S from xx, yy, zz, yz, xz, xy.
+/// Returns the symmetric matrix S with the elements xx, yy, zz, yz, xz, xy.
 Mat3 symmetric(const Eigen::Ref<const Eigen::VectorXd>& s) {
     Mat3 out;
     out << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
@@ -82,7 +83,7 @@ Vec3 CalibrationSolver::jig_misfit(const CalibrationSolution& solution,
     return endpoint(solution, sample.device, sample.at) - input_.jig[sample.point];
 }
 
-/// One Gauss-Newton step: sums up the normal equations H change = -g, and solves them.
+/// One Gauss-Newton step: sums up the normal equations H change = -g and solves them.
 struct CalibrationSolver::Step {
     Step(const CalibrationSolver& of, CalibrationSolution& from, bool is_redescending)
         : solver(of),
@@ -96,7 +97,8 @@ struct CalibrationSolver::Step {
         return static_cast<Eigen::Index>(solver.first_[device]);
     }
 
-    /// Derivative of an endpoint with respect to its device's parameters: turn, shift, shape.
+    /// Derivative of an endpoint with respect to the parameters of its device: turn, shift and
+    /// shape.
     Gradient slope(size_t device, const CalibrationReading& reading) const {
         const Correction& correction = solution.corrections[device];
         Gradient out(3, static_cast<Eigen::Index>(6 + solver.shape_count(device)));
@@ -122,7 +124,8 @@ struct CalibrationSolver::Step {
             if (link[k])
                 misfits.push_back(
                     std::abs(solver.link_misfit(solution, solver.input_.link_samples[k])));
-        // 0.6745 and 1.538: medians of a standard normal's magnitude in one and in three dimensions
+        // 0.6745 and 1.538 are the medians of the magnitude of a standard normal variable in one
+        // and three dimensions
         solution.link_spread = std::max(kLeastSpread, quantile(misfits, 0.5) / 0.6745);
         misfits.clear();
         for (size_t k = 0; k < jig.size(); ++k)
@@ -183,10 +186,10 @@ struct CalibrationSolver::Step {
             for (size_t j = 0; j < shape.size(); ++j)
                 expect(i + 6 + static_cast<Eigen::Index>(j), shape[j], kStretch);
         }
-        H(n - 1, n - 1) += 1;  // L has a prior of 1 m, so that H has an inverse without a link
+        H(n - 1, n - 1) += 1;  // L has a prior of 1 m, so that H has an inverse even without a link
     }
 
-    /// Returns the largest change of a parameter.
+    /// Applies the change to the parameters. Returns the largest change of any parameter.
     double change_parameters() {
         const Eigen::VectorXd change = -H.ldlt().solve(g);
         for (size_t device = 0; device < solution.corrections.size(); ++device) {
@@ -222,7 +225,7 @@ double CalibrationSolver::step(CalibrationSolution& solution, const std::vector<
     for (size_t k = 0; k < jig.size(); ++k) {
         if (jig[k]) step.add(input_.jig_samples[k]);
     }
-    // add() filled only the lower half for the link's samples
+    // for the link's samples, add() filled only the lower half
     step.H = Eigen::MatrixXd(step.H.selfadjointView<Eigen::Lower>());
     step.add_priors();
     return step.change_parameters();
@@ -231,7 +234,7 @@ double CalibrationSolver::step(CalibrationSolution& solution, const std::vector<
 CalibrationSolution CalibrationSolver::solve(CalibrationSolution start,
                                              const std::vector<uint8_t>& link,
                                              const std::vector<uint8_t>& jig) const {
-    constexpr double kDone = 1e-8;  // largest change of a parameter [m, rad]
+    constexpr double kDone = 1e-8;  // largest change of a parameter in the last step [m, rad]
     for (int i = 0; i < kHuberSteps; ++i) {
         if (step(start, link, jig, false) < kDone) break;
     }

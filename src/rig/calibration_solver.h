@@ -4,10 +4,10 @@
 //   + sum over jig samples   rho(|p - q| / s_jig)
 //   + sum over parameters    (value / prior)^2
 //
-// with p the corrected endpoint in the world, q the jig's point and L the link's length. Weights
-// follow first Huber's rho, which converges from afar, then Tukey's, which gives slips no weight; s
-// follows from the median misfit. The prior is far wider than any fault of a rig: it determines
-// only the parameters left undetermined by the samples.
+// where p is the corrected endpoint in the world, q is the jig's point and L is the link's length.
+// The weights are first those of Huber's rho, which converges from far away, and then those of
+// Tukey's, which gives slips no weight; s is computed from the median misfit. The prior is far
+// wider than any fault of a rig, so it affects only parameters that the samples leave undetermined.
 #pragma once
 
 #include <vector>
@@ -23,26 +23,27 @@ struct CalibrationSolution {
     double jig_spread = 0;                ///< s_jig [m]
 };
 
-/// Misfit over s beyond which a sample has no weight: a slip (Tukey's constant).
+/// Ratio of misfit to s above which a sample counts as a slip and has no weight (Tukey's constant).
 constexpr double kSlip = 4.685;
 
 class CalibrationSolver {
   public:
     explicit CalibrationSolver(const CalibrationInput& input);
 
-    /// No corrections, with the median distance as L.
+    /// The solution without corrections, with the median distance as L.
     CalibrationSolution nominal() const;
-    /// `link`, `jig`: by sample, 1 if used.
+    /// Solves from the solution `start`. `link` and `jig` have an entry for each sample: 1 if the
+    /// sample is used.
     CalibrationSolution solve(CalibrationSolution start, const std::vector<uint8_t>& link,
                               const std::vector<uint8_t>& jig) const;
 
-    /// p in the world [m].
+    /// The corrected endpoint p in the world [m].
     Vec3 endpoint(const CalibrationSolution& solution, size_t device,
                   const CalibrationReading& at) const;
-    /// |p_a - p_b| - L [m].
+    /// Misfit of a link sample: |p_a - p_b| - L [m].
     double link_misfit(const CalibrationSolution& solution,
                        const CalibrationInput::LinkSample& sample) const;
-    /// p - q [m].
+    /// Misfit of a jig sample: p - q [m].
     Vec3 jig_misfit(const CalibrationSolution& solution,
                     const CalibrationInput::JigSample& sample) const;
 
@@ -54,7 +55,7 @@ class CalibrationSolver {
 
     const CalibrationInput& input_;
     std::vector<size_t> first_;  // index of each device's first parameter
-    size_t count_ = 0;           // number of parameters; L is the last
+    size_t count_ = 0;           // number of parameters, of which L is the last
 };
 
 }  // namespace dihaptic::rig

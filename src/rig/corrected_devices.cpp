@@ -58,7 +58,7 @@ class CorrectedGroup final : public devices::DeviceGroup {
 
     std::unique_ptr<devices::DeviceGroup> inner_;
     std::vector<Adjustment> adjustments_;
-    std::vector<Mat3> slopes_;  // A at the last reading, by device
+    std::vector<Mat3> slopes_;  // A at the last reading, indexed by device
     std::vector<Wrench> wrenches_;
 };
 

@@ -39,7 +39,8 @@ void DeviceReader::repeat(const std::function<bool()>& each) {
             }
             return each();
         } catch (...) {
-            failure = std::current_exception();  // must not pass through a manufacturer's library
+            // exceptions must not pass through a manufacturer's library
+            failure = std::current_exception();
             return false;
         }
     };

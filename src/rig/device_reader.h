@@ -1,4 +1,4 @@
-// Reads devices with the force off: it never writes a force other than zero.
+// Reads devices with force off: it never writes a force other than zero.
 #pragma once
 
 #include <chrono>
@@ -12,17 +12,17 @@ namespace dihaptic::rig {
 
 class DeviceReader {
   public:
-    /// Time between readings of devices that do not pace.
+    /// Time between two readings of devices that do not pace.
     static constexpr Time kTick = std::chrono::milliseconds(1);
 
-    /// `fingers`: finger that holds each device, for errors.
+    /// `fingers` are the fingers that hold the devices; errors name them.
     DeviceReader(devices::DeviceGroup& devices, std::vector<std::string> fingers);
 
-    /// Reads once, at `now`.
+    /// Reads the devices once, at time `now`.
     void tick(Time now) noexcept;
     /// Reads in real time, at the devices' own pace if they pace, and calls `each` after each
-    /// reading until it returns false. Devices that are not active are not read. Throws Error when
-    /// a device does not answer, and passes on exceptions of `each`.
+    /// reading until it returns false. Devices that are not active are not read. Throws Error if a
+    /// device does not answer, and passes on exceptions from `each`.
     void repeat(const std::function<bool()>& each);
 
     const std::vector<devices::Reading>& readings() const { return readings_; }

@@ -11,7 +11,7 @@ namespace dihaptic::rig {
 
 class GuidedSteps {
   public:
-    /// Time between samples.
+    /// Time between two samples.
     static constexpr Time kEvery = std::chrono::milliseconds(20);
 
     GuidedSteps(DeviceReader& reader, const Guide& guide, int steps)
@@ -33,8 +33,8 @@ class GuidedSteps {
     void wait() {
         reader_.repeat([&] { return !guide_.done(); });
     }
-    /// Calls `each` for every sample until it returns false; `said`: whether, since the last
-    /// sample, the person has reported that the step is done.
+    /// Calls `each` for every sample until it returns false. `said` says whether the person has
+    /// reported since the last sample that the step is done.
     void sample(const std::function<bool(bool said)>& each);
 
   private:

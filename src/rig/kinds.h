@@ -1,4 +1,4 @@
-// The parts of a rig whose options depend on their kind (base/kinds.h): devices and outlets.
+// The parts of a rig whose options depend on their kind (base/kinds.h), i.e. devices and outlets.
 #pragma once
 
 #include "base/kinds.h"

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The path as in the list of allowed libraries.
+/// Returns the path in the form used in the list of allowed libraries.
 std::string whole(const std::string& path) {
     std::error_code failed;
     const fs::path out = fs::weakly_canonical(fs::absolute(path, failed), failed);
@@ -73,7 +73,7 @@ std::vector<Problem> strange_libraries(const Rig& rig) {
     for (const Device& device : rig.devices) look_at(device.options, out);
     for (const outlets::OutletConfig& outlet : rig.outlets) look_at(outlet.options, out);
     if (rig.head) look_at(rig.head->place, rig.head->library, out);
-    // two devices of a manufacturer share a library
+    // two devices from the same manufacturer share a library
     std::set<std::string> told;
     std::erase_if(out, [&](const Problem& one) { return !told.insert(one.what).second; });
     return out;

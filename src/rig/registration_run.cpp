@@ -11,12 +11,12 @@
 namespace dihaptic::rig {
 namespace {
 
-constexpr int kCrossSamples = 25;           // samples per cross: half a second
-constexpr double kMostMovedOnCross = 2e-3;  // movement of a finger at rest on a cross [m]
+constexpr int kCrossSamples = 25;           // number of samples per cross: half a second
+constexpr double kMostMovedOnCross = 2e-3;  // largest movement of a finger at rest on a cross [m]
 constexpr double kMoveToCross = 0.8;        // time of a simulated finger from cross to cross [s]
-constexpr double kRest = 0.7;               // rest on each cross [s]
+constexpr double kRest = 0.7;               // time spent on each cross [s]
 
-/// A finger that moves from point to point, and rests at each.
+/// A simulated hand whose finger moves from point to point and rests at each of them.
 class TouchingHand final : public hand::Driver {
   public:
     explicit TouchingHand(std::vector<Vec3> places) : places_(std::move(places)) {}
@@ -62,7 +62,7 @@ class Endpoint {
     Endpoint& operator=(const Endpoint&) = delete;
 
     DeviceReader& reader() { return reader_; }
-    /// Position in the hand's units [m].
+    /// Position of the endpoint in the hand's units [m].
     Vec3 p_W() const { return X_WD_ * (reader_.readings()[0].p_DH / devices_->info(0).scale); }
 
   private:
@@ -70,7 +70,7 @@ class Endpoint {
                                                       const hand::Driver* driver) {
         devices::Context context;
         context.driver = driver;
-        context.impedance.stiffness = 1e5;  // a simulated finger that does not yield
+        context.impedance.stiffness = 1e5;  // makes the simulated finger practically rigid
         context.impedance.damping = 150;
         return make_devices(rig, {finger}, context);
     }
@@ -141,7 +141,7 @@ std::vector<Vec3> simulate(const Rig& rig, const std::string& finger, const disp
         if (now % GuidedSteps::kEvery != Time(0)) continue;
         told.share = seconds(now) / hand.duration();
         guide.show(told);
-        guide.done();  // throws if the person cancels
+        guide.done();  // throws if the person has cancelled
         const double each = kMoveToCross + kRest;
         const auto i = static_cast<size_t>(seconds(now) / each);
         if (seconds(now) - static_cast<double>(i) * each > kMoveToCross + kRest / 2)

@@ -11,7 +11,7 @@ namespace dihaptic::rig {
 namespace {
 
 constexpr double kPanel = 420, kPanelTop = 78, kGap = 40;  // [px]
-/// Colours from no misfit to the scale's largest.
+/// Colours from zero misfit to the largest misfit on the scale.
 constexpr std::array kErrorColours{"#1b4f9c", "#3f8fc4", "#8cc5c9",
                                    "#f2d388", "#ec8f45", "#c0392b"};
 
@@ -30,7 +30,7 @@ struct View {
     double y(double p) const { return kPanelTop + kPanel / 2 - (p - area.center().y()) * scale; }
 };
 
-/// A round number above most misfits [m].
+/// A round number that is above most misfits [m].
 double scale_of(const std::vector<LinkResidual>& residuals) {
     std::vector<double> sizes;
     for (const LinkResidual& r : residuals)

@@ -16,7 +16,7 @@
 namespace dihaptic::rig {
 namespace {
 
-/// The path of a file named in a rig file.
+/// The path of a file that is named in a rig file.
 std::string beside(const std::string& rig_file, const std::string& named) {
     return (std::filesystem::path(rig_file).parent_path() / named).string();
 }
@@ -94,8 +94,8 @@ void check(const Rig& rig, Diagnostics& diagnostics) {
     check_head(rig, diagnostics);
 }
 
-/// Reads a file that a rig file names under a key. If it cannot be read, reports this with `remedy`
-/// and returns false.
+/// Reads a file that a rig file names under a key. If the file cannot be read, reports this with
+/// `remedy` and returns false.
 template <class File>
 bool read_named(const std::string& file, const Place& place, const char* key,
                 const std::string& named, const char* remedy, File& out, Diagnostics& diagnostics) {
@@ -153,7 +153,7 @@ void read_calibration(Rig& rig, const std::string& file, Diagnostics& diagnostic
     rig.calibrated = calibration;
 }
 
-/// Moves all positions so that the file's `origin` becomes the world's origin.
+/// Moves all positions so that the `origin` of the file becomes the world's origin.
 void place_world(Rig& rig) {
     for (Device& device : rig.devices) device.position -= rig.origin;
     for (JigPoint& point : rig.jig) point.position -= rig.origin;
@@ -165,7 +165,7 @@ void place_world(Rig& rig) {
     rig.origin = Vec3::Zero();
 }
 
-/// The adjustment of a device's readings; nullopt if they need none.
+/// The adjustment to a device's readings; nullopt if they need none.
 std::optional<Adjustment> adjustment(const Rig& rig, const Device& device,
                                      const frame::DeviceInfo& info) {
     Adjustment out;
@@ -269,7 +269,7 @@ std::string store_calibration(const Rig& rig, const CalibrationResult& result,
 }
 
 namespace {
-/// The name of another file in a rig file.
+/// The form in which a rig file names another file.
 std::string named_in(const std::string& rig_file, const std::string& file) {
     const auto folder = std::filesystem::path(rig_file).parent_path();
     return std::filesystem::path(file).lexically_proximate(folder).string();
@@ -372,7 +372,7 @@ Rig uncorrected(const Rig& rig) {
 }
 
 namespace {
-/// The backend of the fingers' devices, and these devices in the fingers' order.
+/// The backend of the fingers' devices, and the devices themselves in the order of the fingers.
 std::pair<const devices::Backend&, std::vector<devices::DeviceConfig>> held_by(
     const Rig& rig, const std::vector<std::string>& fingers) {
     std::vector<devices::DeviceConfig> configs;

@@ -9,14 +9,15 @@
 namespace dihaptic::rig {
 namespace {
 
-/// Approximate number of the grid's points: fixed, so that the time is about the same for any rig.
+/// Approximate number of points in the grid. It is fixed, so that the search takes about the same
+/// time for any rig.
 constexpr double kPoints = 8e6;
-constexpr double kFinest = 1e-3;  // least spacing of the grid [m]
-/// The largest box is sought among cells that are several points wide: at most this many cells
-/// along an axis.
+constexpr double kFinest = 1e-3;  // smallest spacing of the grid [m]
+/// Largest number of cells along an axis. The largest box is sought among cells that are several
+/// grid points wide.
 constexpr int kMostCells = 64;
 
-/// A hand without motion, because simulated devices need a hand.
+/// A hand that does not move, because simulated devices need a hand.
 class StillDriver final : public hand::Driver {
   public:
     double duration() const override { return 0; }
@@ -27,7 +28,7 @@ class StillDriver final : public hand::Driver {
     std::vector<Phase> phases_;
 };
 
-/// Which points of a grid are inside.
+/// The points of a grid, with a flag for those that are inside.
 struct Grid {
     Eigen::Vector3i size;
     std::vector<uint8_t> in;
@@ -43,8 +44,9 @@ struct Grid {
     }
 };
 
-/// The distance transform of one line of squared distances, by the lower envelope of parabolas
-/// (Felzenszwalb and Huttenlocher 2012). `step`: between the line's `n` values.
+/// The distance transform of one line of squared distances, computed from the lower envelope of
+/// parabolas (Felzenszwalb and Huttenlocher 2012). `step` is the number of array elements from one
+/// of the line's `n` values to the next.
 class DistanceLine {
   public:
     explicit DistanceLine(int most)
@@ -90,10 +92,11 @@ class DistanceLine {
     std::vector<double> ends_;
 };
 
-/// Finds the point farthest from all points outside; beyond the grid all points are outside.
+/// Finds the point that is farthest from all the points outside. All points beyond the grid count
+/// as outside.
 void find_sphere(const Grid& grid, Workspace& out) {
     const Eigen::Vector3i n = grid.size;
-    // with a margin of points outside
+    // adds a margin of points that are outside
     const Grid padded(n + Eigen::Vector3i::Constant(2));
     const Eigen::Vector3i m = padded.size;
     constexpr float kFar = 1e9F;
@@ -121,12 +124,12 @@ void find_sphere(const Grid& grid, Workspace& out) {
                 most = here;
                 out.sphere_centre = out.first + out.spacing * Vec3(x - 1, y - 1, z - 1);
             }
-    // the edge is nearer than the next point outside, by at most a cell's diagonal
+    // the edge is nearer than the next point outside, but by no more than the diagonal of a cell
     out.sphere_radius =
         std::max(0.0, (std::sqrt(static_cast<double>(most)) - std::sqrt(3.0)) * out.spacing);
 }
 
-/// The largest rectangle under a row of heights: its left and right end, and its height.
+/// The largest rectangle under a row of heights: its left end, its right end, and its height.
 struct Rectangle {
     int left = 0, right = 0, height = 0;
     int area() const { return (right - left) * height; }
@@ -148,8 +151,8 @@ Rectangle largest_under(const std::vector<int>& heights, std::vector<int>& stack
     return best;
 }
 
-/// The cells whose sides are `side` steps long and whose points are all inside; neighbours share
-/// the points between them.
+/// Returns the cells whose sides are `side` steps long and whose points are all inside.
+/// Neighbouring cells share the points on their common face.
 Grid full_cells(const Grid& grid, int side) {
     Grid cells(((grid.size - Eigen::Vector3i::Ones()) / side).cwiseMax(0));
     const Eigen::Vector3i n = cells.size;
@@ -166,8 +169,8 @@ Grid full_cells(const Grid& grid, int side) {
     return cells;
 }
 
-/// Finds the largest box of full cells: for every stack of layers, the largest rectangle of columns
-/// that are full throughout.
+/// Finds the largest box of full cells. To do so, it finds for every stack of layers the largest
+/// rectangle of columns that are full in all these layers.
 void find_box(const Grid& grid, Workspace& out) {
     const int side = std::max(1, (grid.size.maxCoeff() - 2) / kMostCells + 1);
     const Grid cells = full_cells(grid, side);
@@ -202,7 +205,7 @@ void find_box(const Grid& grid, Workspace& out) {
 Reach::Reach(const Device& device, const frame::DeviceInfo& info)
     : finger_(device.finger), X_DW_(device.X_WD().inverse()), scale_(info.scale), arm_(info.arm) {
     if (arm_) {
-        // a cube around the shoulder that holds the arm in any direction
+        // a cube around the shoulder that contains the arm in any direction
         const double length = scale_ * (arm_->thigh + arm_->shin);
         const Vec3 shoulder = device.X_WD() * (scale_ * Vec3(0, arm_->shin, -arm_->thigh));
         bounds_ = {shoulder - Vec3::Constant(length), shoulder + Vec3::Constant(length)};
@@ -250,7 +253,7 @@ Placement propose_placement(const Workspace& workspace) {
 }
 
 double out_of_reach(const Eigen::AlignedBox3d& box, const std::vector<Reach>& reaches) {
-    constexpr int kSide = 40;  // number of points along a side, corners included
+    constexpr int kSide = 40;  // number of points along a side, including the corners
     int out = 0;
     for (int i = 0; i < kSide * kSide * kSide; ++i) {
         const Vec3 share = Vec3(i % kSide, i / kSide % kSide, i / (kSide * kSide)) / (kSide - 1);
@@ -269,7 +272,7 @@ Workspace find_workspace(const std::vector<Reach>& reaches,
     Workspace out;
     out.spacing = std::max(kFinest, std::cbrt(all.volume() / kPoints));
     out.size = (all.sizes() / out.spacing).array().floor().cast<int>() + 1;
-    // the grid is centred in the box
+    // centres the grid in the box
     out.first = all.center() - out.spacing / 2 * (out.size.cast<double>() - Vec3::Ones());
     const size_t columns = static_cast<size_t>(out.size.x()) * static_cast<size_t>(out.size.y());
     out.volumes.resize(reaches.size());
@@ -281,7 +284,7 @@ Workspace find_workspace(const std::vector<Reach>& reaches,
     std::vector<int64_t> counts(reaches.size());
     int64_t count = 0;
     for (int z = 0; z < out.size.z(); ++z) {
-        // the following search takes about a tenth of this time
+        // the search that follows takes about a tenth of the total time
         if (!progress(0.9 * z / out.size.z())) return {};
         for (int y = 0; y < out.size.y(); ++y) {
             for (int x = 0; x < out.size.x(); ++x) {

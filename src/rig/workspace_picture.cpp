@@ -12,9 +12,9 @@ constexpr double kWidth = 760, kTop = 70, kSideMargin = 40, kLegendLine = 26;  /
 constexpr const char* kDotted = "stroke-dasharray=\"2 4\"";
 constexpr std::array kColours{"#d1495b", "#2e6fbb", "#3a9d5d", "#8e5bb0"};
 
-/// The part of the picture that shows the grid: x to the right, y up.
+/// The part of the picture that shows the grid, with x to the right and y upwards.
 struct FromAbove {
-    Vec3 corner;    // corner of the grid, around its first point [m]
+    Vec3 corner;    // corner of the grid, next to its first point [m]
     double scale;   // [px/m]
     double height;  // [px]
 
@@ -27,7 +27,7 @@ struct FromAbove {
     double y(double p) const { return kTop + height - (p - corner.y()) * scale; }
 };
 
-/// An SVG path of thin bars, one for each run of held points.
+/// Returns an SVG path of thin bars, one for each run of points within reach.
 std::string bars(const Workspace& w, const Shadow& shadow, double scale) {
     std::string d;
     const double step = w.spacing * scale;
@@ -36,7 +36,7 @@ std::string bars(const Workspace& w, const Shadow& shadow, double scale) {
             if (!w.holds(shadow, x, y)) continue;
             const int begin = x;
             while (x < w.size.x() && w.holds(shadow, x, y)) ++x;
-            // y points away from the person, and up in the picture
+            // y points away from the person, which is upwards in the picture
             d += fmt::format("M{:.1f} {:.1f}h{:.1f}v{:.2f}h{:.1f}z", kSideMargin + begin * step,
                              kTop + (w.size.y() - 1 - y) * step, (x - begin) * step, step + 0.3,
                              -(x - begin) * step);
@@ -45,7 +45,7 @@ std::string bars(const Workspace& w, const Shadow& shadow, double scale) {
     return d;
 }
 
-/// An SVG path of the edge between held points and others, as short lines.
+/// Returns an SVG path of short lines along the edge between points within reach and other points.
 std::string edge(const Workspace& w, const Shadow& shadow, double scale) {
     std::string d;
     const double step = w.spacing * scale;
@@ -92,7 +92,7 @@ void draw_largest(Svg& svg, const Workspace& w, const FromAbove& view) {
     }
 }
 
-/// Draws the world's axes, and a scale of a decimetre.
+/// Draws the axes of the world, and a scale bar of one decimetre.
 void draw_measures(Svg& svg, const FromAbove& view) {
     svg.path(fmt::format("M{:.1f} {:.1f}h22m-22 0v-22", view.x(0), view.y(0)), "#000000", 2);
     svg.text(view.x(0) + 25, view.y(0) + 4, "x");
@@ -104,7 +104,7 @@ void draw_measures(Svg& svg, const FromAbove& view) {
     svg.text(kWidth - kSideMargin - bar / 2, kTop + view.height + 12, "100 mm", "middle");
 }
 
-/// Draws the legend, from y downward: the meaning and size of each colour and line.
+/// Draws the legend, from y downwards, which explains each colour and line and gives the sizes.
 void draw_legend(Svg& svg, const Workspace& w, const std::vector<Reach>& reaches, double y) {
     const auto line = [&](const std::string& words) {
         svg.text(kSideMargin + 26, y + 12, words);

@@ -8,7 +8,7 @@
 
 namespace dihaptic::rows {
 
-/// The correction in the trials of a condition, in SI units; NaN where it was not found.
+/// The correction found in the trials of a condition, in SI units; NaN if it was not found.
 struct CorrectionRow {
     std::string round, condition, perturbation;
     int trials = 0, matched = 0, left_out = 0;

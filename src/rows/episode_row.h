@@ -14,7 +14,7 @@ constexpr auto enum_names(EpisodeKind) {
     return std::array{"hold", "slide", "flight"};
 }
 
-/// One episode, in SI units. Figures that do not apply to its kind are NaN.
+/// One episode, in SI units. Figures that do not apply to this kind of episode are NaN.
 struct EpisodeRow {
     EpisodeKind kind = EpisodeKind::hold;
     double start = 0, end = 0;

@@ -9,13 +9,13 @@
 
 namespace dihaptic::rows {
 
-/// Version of the HED schema (www.hedtags.org) that contains the tags.
+/// Version of the HED schema (www.hedtags.org) that defines the tags.
 inline constexpr const char* kHedSchema = "8.3.0";
 
 struct EventKind {
     const char* name;
-    const char* value;  ///< meaning of the event's detail
-    const char* hed;    ///< its HED tags
+    const char* value;  ///< what the event's detail means
+    const char* hed;    ///< HED tags of the event
 };
 inline constexpr EventKind kEventKinds[] = {
     {"trial", "the attempt's number", "Experiment-structure, Experimental-trial"},
@@ -45,13 +45,13 @@ inline constexpr EventKind kEventKinds[] = {
     {"limit", "the limit that was reached", "Data-feature"},
 };
 
-/// An event in a tick.
+/// An event that occurred in a tick.
 struct EventRow {
-    int64_t tick = 0;  ///< tick in the log; not in the table
+    int64_t tick = 0;  ///< tick in the log; not written to the table
     double time = 0;   ///< [s]
     int trial = 0;
-    std::string name;            ///< one of kEventKinds
-    std::string detail;          ///< fingers, bodies or values concerned
+    std::string name;            ///< name of one of kEventKinds
+    std::string detail;          ///< the fingers, bodies or values involved
     double shown = kUnmeasured;  ///< [s]
     double heard = kUnmeasured;  ///< [s]
 

@@ -9,13 +9,14 @@
 
 namespace dihaptic::rows {
 
-/// The rule by which a lift's events are found.
+/// The rule by which the events of a lift are found.
 enum class EventRule { contact, force };
 constexpr auto enum_names(EventRule) {
     return std::array{"contact", "force"};
 }
 
-/// The figures of one lift, in SI units; NaN where an event that a figure needs did not happen.
+/// The figures of one lift, in SI units. A figure is NaN if an event on which it depends did not
+/// occur.
 struct LiftRow {
     int trial = 0;
     int attempt = 0;
@@ -88,8 +89,8 @@ struct LiftRow {
 };
 
 using LiftFile = RowFile<LiftRow>;
-/// Reads lifts.csv, which called grip_load_r and grip_load_lag "coupling" before version 0.2.
-/// Throws Error when it cannot be read.
+/// Reads lifts.csv, in which grip_load_r and grip_load_lag had names with "coupling" before version
+/// 0.2. Throws Error when the file cannot be read.
 inline LiftFile read_lifts(const std::string& file) {
     CsvFile table(file);
     table.rename("coupling", "grip_load_r");

@@ -1,4 +1,5 @@
-// A row of procedures.csv: a procedure of the task, as used in the analysis of its answers.
+// A row of procedures.csv, which describes a procedure of the task as needed for the analysis of
+// its answers.
 #pragma once
 
 #include <string>

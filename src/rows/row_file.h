@@ -1,6 +1,6 @@
-// Reads a session's table into the structs that it was written from. Each row struct lists its
-// figures once (base/figure.h): figure_table() writes a table of them, and RowFile reads that
-// table.
+// Reads a session's table into the structs from which the table was written. Each row struct lists
+// its figures once (base/figure.h): figure_table() writes a table of these structs, and RowFile
+// reads the table back.
 #pragma once
 
 #include <fmt/format.h>
@@ -24,8 +24,8 @@
 
 namespace dihaptic::rows {
 
-/// Lists a vector's components, e.g. reach_from_x and so on for "reach_from", with one description
-/// for all.
+/// Lists the components of a vector, e.g. reach_from_x and so on for "reach_from", all with the
+/// same description.
 template <class Visitor, class Vector>
 void visit_vector(Visitor& v, const std::string& name, Vector& value, std::string_view unit,
                   std::string_view what) {
@@ -34,14 +34,15 @@ void visit_vector(Visitor& v, const std::string& name, Vector& value, std::strin
     v(name + "_z", value.z(), unit, what);
 }
 
-/// Finds the columns that a struct lists, in its order, and reads rows of them. A column that the
-/// table lacks (an earlier version's may) leaves the member unchanged, and so does an empty cell,
-/// or an invalid one where a whole number belongs.
+/// Finds the columns that a struct lists, and reads rows of these columns into structs. If a column
+/// is missing from the table, as it may be in an earlier version's table, the member of the struct
+/// is left unchanged. The same applies to an empty cell, and to an invalid cell where an integer is
+/// expected.
 class RowReader {
   public:
     explicit RowReader(const CsvFile& table) : table_(table) {}
 
-    /// Throws Error if a cell holds a word that its column does not allow.
+    /// Throws Error if a cell contains a word that is not allowed in its column.
     template <class Row>
     Row read(size_t row) {
         Row out;
@@ -102,12 +103,12 @@ class RowReader {
     size_t row_ = 0, slot_ = 0;
 };
 
-/// A session's table: a Row for each of its lines, and any further columns.
+/// A session's table: a Row for each of its lines, and access to any further columns.
 template <class Row>
 class RowFile {
   public:
-    /// Throws Error when the file cannot be read, or contains a word that its column does not
-    /// allow.
+    /// Throws Error when the file cannot be read, or when it contains a word that is not allowed in
+    /// its column.
     explicit RowFile(const std::string& file) : RowFile(CsvFile(file)) {}
     explicit RowFile(CsvFile table) : table_(std::move(table)) {
         RowReader reader(table_);
@@ -122,13 +123,14 @@ class RowFile {
     auto end() const { return rows_.end(); }
     const Row& back() const { return rows_.back(); }
 
-    /// The column with this name, which a task or a person chose; nullopt if there is none.
+    /// Index of the column with this name, for names that a task or a person chose; nullopt if
+    /// there is none.
     std::optional<size_t> column(const std::string& name) const { return table_.column(name); }
-    /// A cell; empty if there is no column.
+    /// Text of a cell; empty if there is no such column.
     const std::string& text(size_t row, std::optional<size_t> column) const {
         return table_.text(row, column);
     }
-    /// NaN if the cell holds no number, or if there is no column.
+    /// Number in a cell; NaN if the cell does not contain a number, or if there is no such column.
     double number(size_t row, std::optional<size_t> column) const {
         return table_.number(row, column);
     }

@@ -1,4 +1,4 @@
-// A row of trials.csv: the demands of an attempt at a trial, and its measures.
+// A row of trials.csv: the demands and the measures of a trial attempt.
 #pragma once
 
 #include <string>
@@ -27,9 +27,9 @@ struct TrialHead {
     }
 };
 
-/// The demands of a trial: the first columns of trial-list.csv.
+/// The demands of a trial, which are the first columns of trial-list.csv.
 struct AskedRow {
-    int trial = 0;  ///< 0: the row has no number
+    int trial = 0;  ///< 0 if the row has no number
     int block_number = 1;
     std::string block;
     int in_block = 1;
@@ -56,10 +56,10 @@ struct AskedRow {
     }
 };
 
-/// The measures of every attempt, in SI units, except for reaches, which are in the units of their
-/// columns, so that every reader of the table computes the same results from them, to the last bit.
+/// The measures of every attempt, in SI units. The measures of reaches are in the units of their
+/// columns instead, so that every reader of the table computes exactly the same results from them.
 struct TrialMeasures {
-    int attempt = 0;  ///< 0: the session has no task
+    int attempt = 0;  ///< 0 if the session has no task
     std::string outcome;
     double peak_grip = kUnmeasured;
     double peak_force = 0;
@@ -89,11 +89,11 @@ struct TrialMeasures {
           "length that would have led to the target, from the handle's first displayed position");
     }
 };
-/// The outcome of an attempt that ended without an outcome of its own.
+/// The outcome of an attempt that ended without any other outcome.
 inline constexpr const char* kInterrupted = "interrupted";
 
-/// An attempt at a task's trial. Variables, levels, answers and the task's custom measures have
-/// further columns, which differ from task to task (RowFile::column).
+/// An attempt at a trial of a task. Variables, levels, answers and the task's custom measures are
+/// in further columns, which differ between tasks (RowFile::column).
 struct TrialRow {
     TrialHead head;
     AskedRow asked;

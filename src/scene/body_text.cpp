@@ -18,15 +18,15 @@ namespace {
 struct WrittenField {
     std::string_view name;
     Quantity quantity;
-    double step;              ///< changed values are rounded to a multiple of this [SI]
-    std::string_view suffix;  ///< unit for a file that does not contain this field yet
+    double step;              ///< changed values are rounded to a multiple of this step [SI]
+    std::string_view suffix;  ///< unit to use if no body in the file has this field
 };
 constexpr WrittenField kWrittenPosition{"position", Quantity::length, 1e-4, "mm"};
 constexpr WrittenField kWrittenRotation{"rotation", Quantity::angle, 0.1 * kDegree, "deg"};
 
-/// A field of one body.
+/// A vector-valued field of one body.
 struct WrittenVector {
-    const Written* list = nullptr;  ///< null if the body lacks the field
+    const Written* list = nullptr;  ///< the list in the text; null if the body lacks the field
     Unit unit{};
 };
 WrittenVector find_vector(const Written& body, const WrittenField& field) {
@@ -46,7 +46,7 @@ class BodyText {
     BodyText(const std::string& text, const std::string& name)
         : text_(text), name_(name), root_(read_written(text)), body_(find_body()) {}
 
-    /// Replaces, or adds, a field of the body.
+    /// Moves the value of a field by `way`. If the body does not have the field, adds it.
     void move(const WrittenField& field, const Vec3& way) {
         const auto [list, unit] = find_vector(body_, field);
         if (list == nullptr && way.isZero(0)) return;
@@ -58,7 +58,7 @@ class BodyText {
             changes.push_back({item.at, item.scalar.size(), number(field, unit, now[i] + way[i])});
         }
     }
-    /// The field's numbers [SI]; zero if the body has none.
+    /// The numbers in the field [SI]; zero if the body does not have the field.
     Vec3 value(const WrittenField& field) const {
         const auto [list, unit] = find_vector(body_, field);
         return list == nullptr ? Vec3(Vec3::Zero()) : numbers(field, *list, unit);
@@ -109,7 +109,7 @@ class BodyText {
         return out;
     }
 
-    /// A number in a unit, rounded to the field's step, without trailing zeros.
+    /// Returns a value in a unit, rounded to the field's step, without trailing zeros.
     static std::string number(const WrittenField& field, const Unit& unit, double value) {
         const double step = field.step / unit.si;
         const int places = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
@@ -120,7 +120,7 @@ class BodyText {
         return out == "-0" ? "0" : out;
     }
 
-    /// The unit in which other bodies have the field.
+    /// The unit in which other bodies give the field.
     Unit usual_unit(const WrittenField& field) const {
         for (const Written& body : root_.find("bodies")->items) {
             if (const WrittenVector other = find_vector(body, field); other.list != nullptr)
@@ -131,7 +131,7 @@ class BodyText {
                              [&](const Unit& unit) { return unit.suffix == field.suffix; });
     }
 
-    /// Inserts the field after the name, which always exists, in any style of mapping.
+    /// Inserts the field after the body's name, which always exists, in the mapping's own style.
     void add(const WrittenField& field, const Vec3& value) {
         const Unit unit = usual_unit(field);
         const std::string line = fmt::format(
@@ -164,12 +164,12 @@ class BodyText {
     const Written& body_;
 };
 
-/// The equivalent angle between -pi and pi; a turn of half a circle keeps its sign.
+/// The equivalent angle between -pi and pi; a half turn keeps its sign.
 double wrapped(double angle) {
     return std::abs(angle) <= kDegree * 180 ? angle : std::remainder(angle, kDegree * 360);
 }
 
-/// Whether a text, which may be invalid YAML by now, has this value for a body's field.
+/// Whether a text, which may have become invalid YAML, has this value in a body's field.
 bool has_value(const std::string& text, const std::string& name, const WrittenField& field,
                const Vec3& value) {
     try {
@@ -184,7 +184,7 @@ bool has_value(const std::string& text, const std::string& name, const WrittenFi
 std::string body_at(const std::string& text, size_t at) {
     try {
         const Written root = read_written(text);
-        // a body extends from the last key before the position to the next key
+        // a section extends from the last key before the position to the next key
         const Written* section = nullptr;
         for (size_t i = 0; i + 1 < root.items.size(); i += 2) {
             if (root.items[i].at <= at) section = &root.items[i];
@@ -193,7 +193,7 @@ std::string body_at(const std::string& text, size_t at) {
         std::string out;
         size_t before = section->at;
         for (const Written& body : root.find("bodies")->items) {
-            // from the start of its line, unless another item is on that line
+            // a body starts at the start of its line, unless another item is on that line
             const size_t line = text.rfind('\n', body.at) + 1;
             if (at < (line > before ? line : body.at)) break;
             before = body.at;

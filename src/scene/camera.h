@@ -1,4 +1,4 @@
-// Describes a camera, which is a viewpoint for a scene.
+// Describes a camera, i.e. a viewpoint from which a scene is drawn.
 #pragma once
 
 #include <numbers>
@@ -11,9 +11,9 @@ namespace dihaptic::scene {
 
 struct Camera {
     std::string name;
-    Vec3 position{0, -0.5, 0.35};  ///< viewpoint, in W [m]
+    Vec3 position{0, -0.5, 0.35};  ///< position of the viewpoint, in W [m]
     Vec3 look_at = Vec3::Zero();   ///< the point at the centre of the picture, in W [m]
-    double field_of_view = 30 * std::numbers::pi / 180;  ///< from bottom to top [rad]
+    double field_of_view = 30 * std::numbers::pi / 180;  ///< vertical field of view [rad]
 
     template <class Visitor>
     void visit(Visitor& v) {

@@ -30,12 +30,12 @@ class Sets {
     std::vector<size_t> parent_;
 };
 
-/// A face at an edge, which runs from the face's corner `first` to the next corner.
+/// A face next to an edge. The edge runs from corner `first` of the face to the next corner.
 struct EdgeSide {
     size_t face = 0;
     size_t first = 0;
-    bool is_forward = false;  ///< from the edge's smaller vertex to its larger
-    double angle = 0;         ///< about the edge [rad]
+    bool is_forward = false;  ///< whether it runs from the edge's smaller vertex to its larger one
+    double angle = 0;         ///< angle of the face about the edge [rad]
 };
 
 using Sides = std::map<Edge, std::vector<EdgeSide>>;
@@ -53,9 +53,9 @@ Sides sides_of(const Mesh& mesh) {
     return out;
 }
 
-/// The pairs of faces that bound the same wedge of solid at an edge of more than two faces: in
-/// order of angle about the edge, each face that starts a wedge, with the first unpaired face that
-/// ends a wedge.
+/// At an edge with more than two faces, returns the pairs of faces that bound the same wedge of
+/// solid. In order of angle about the edge, each face that starts a wedge is paired with the first
+/// unpaired face that ends a wedge.
 std::vector<std::pair<EdgeSide, EdgeSide>> wedges(const Mesh& mesh, const Edge& edge,
                                                   std::vector<EdgeSide> sides) {
     const Vec3 along = (corner(mesh, edge.second) - corner(mesh, edge.first)).normalized();
@@ -67,7 +67,7 @@ std::vector<std::pair<EdgeSide, EdgeSide>> wedges(const Mesh& mesh, const Edge& 
     }
     std::stable_sort(sides.begin(), sides.end(),
                      [](const EdgeSide& a, const EdgeSide& b) { return a.angle < b.angle; });
-    // start where no wedge is open
+    // start at an angle at which no wedge is open
     int open = 0;
     int least = 0;
     size_t start = 0;
@@ -91,8 +91,8 @@ std::vector<std::pair<EdgeSide, EdgeSide>> wedges(const Mesh& mesh, const Edge& 
     return out;
 }
 
-/// Where several sheets of the surface meet at a vertex or an edge, gives each sheet its own
-/// vertices, and finds the shells.
+/// Gives each sheet of the surface its own vertices where several sheets meet at a vertex or an
+/// edge, and finds the shells.
 std::vector<Shell> separate(Mesh& mesh) {
     Sets corners(3 * mesh.faces.size());
     Sets faces(mesh.faces.size());
@@ -108,9 +108,9 @@ std::vector<Shell> separate(Mesh& mesh) {
             for (const auto& [a, b] : wedges(mesh, edge, sides)) join(a, b);
         }
     }
-    std::map<size_t, int> vertex;  // for each set of corners
+    std::map<size_t, int> vertex;  // the vertex for each set of corners
     std::vector<bool> is_taken(mesh.vertices.size());
-    std::map<size_t, size_t> number;  // for each set of faces
+    std::map<size_t, size_t> number;  // the shell's number for each set of faces
     std::vector<Shell> shells;
     for (size_t i = 0; i < mesh.faces.size(); ++i) {
         for (size_t k = 0; k < 3; ++k) {
@@ -131,8 +131,8 @@ std::vector<Shell> separate(Mesh& mesh) {
     return shells;
 }
 
-/// The winding number of a shell around a point (Van Oosterom and Strackee 1983); a fraction if the
-/// point is on the surface.
+/// The winding number of a shell around a point (Van Oosterom and Strackee 1983). It is a fraction
+/// if the point is on the surface.
 double winding(const Mesh& mesh, const Shell& shell, const Vec3& p) {
     double angle = 0;
     for (const size_t i : shell.faces) {
@@ -149,12 +149,12 @@ double winding(const Mesh& mesh, const Shell& shell, const Vec3& p) {
     return angle / (4 * M_PI);
 }
 
-/// A shell's data during sorting.
+/// Data on a shell that are needed for sorting.
 struct Nested {
     double volume = 0;
     Vec3 low;
     Vec3 high;
-    std::vector<size_t> around;  ///< the shells around it, the smallest first
+    std::vector<size_t> around;  ///< the shells that contain this shell, smallest first
 };
 
 Nested look_at(const Mesh& mesh, const Shell& shell) {
@@ -172,7 +172,7 @@ Nested look_at(const Mesh& mesh, const Shell& shell) {
     return out;
 }
 
-/// Whether a shell lies within another, apart from points at which the two touch.
+/// Whether one shell lies within another, apart from points at which the two touch.
 bool is_in(const Mesh& mesh, const Shell& inner, const Nested& small, const Shell& outer,
            const Nested& large) {
     if (std::abs(small.volume) >= std::abs(large.volume)) return false;
@@ -180,12 +180,12 @@ bool is_in(const Mesh& mesh, const Shell& inner, const Nested& small, const Shel
     if ((small.low.array() < (large.low - room).array()).any() ||
         (small.high.array() > (large.high + room).array()).any())
         return false;
-    constexpr size_t kMost = 300;  // number of faces tried, evenly spread
+    constexpr size_t kMost = 300;  // number of faces that are tested, evenly spread over the shell
     const size_t step = inner.faces.size() / kMost + 1;
     for (size_t i = 0; i < inner.faces.size(); i += step) {
         const std::vector<int>& f = mesh.faces[inner.faces[i]];
         const Vec3 middle = (corner(mesh, f[0]) + corner(mesh, f[1]) + corner(mesh, f[2])) / 3;
-        // the winding number is 1/8 at the corner of a box that touches from inside
+        // the winding number is 1/8 at the corner of a box that touches the shell from inside
         for (const Vec3& p : {corner(mesh, f[0]), middle}) {
             if (std::abs(winding(mesh, outer, p)) < 0.01) return false;
         }
@@ -193,7 +193,7 @@ bool is_in(const Mesh& mesh, const Shell& inner, const Nested& small, const Shel
     return true;
 }
 
-/// The nesting of shells, and the side to which they face.
+/// The nesting of shells, and the side that their faces face.
 class Nesting {
   public:
     explicit Nesting(ClosedMesh& solid) : solid_(solid) {
@@ -201,8 +201,7 @@ class Nesting {
         for (size_t i = 0; i < all_.size(); ++i) all_[i].around = around(i);
     }
     /// Reverses shells whose faces point into the solid, and finds the solid that contains each
-    /// cavity. Returns the number of shells reversed, or 0 if the mesh was merely inside out as a
-    /// whole.
+    /// cavity. Returns the number of reversed shells, or 0 if merely the whole mesh was inside out.
     size_t sort_out() {
         std::vector<size_t> order(all_.size());
         std::iota(order.begin(), order.end(), size_t{0});
@@ -236,7 +235,8 @@ class Nesting {
             std::swap(solid_.mesh.faces[f][1], solid_.mesh.faces[f][2]);
         all_[i].volume *= -1;
     }
-    /// An outermost shell is reversed together with all shells inside.
+    /// Corrects the orientation of an outermost shell. If it has to be reversed, the shells inside
+    /// it are reversed as well.
     void face_outermost(size_t i) {
         any_right_ |= all_[i].volume > 0;
         if (all_[i].volume > 0) return;
@@ -246,8 +246,8 @@ class Nesting {
             if (!all_[k].around.empty() && all_[k].around.back() == i) turn_around(k);
         }
     }
-    /// An inward-facing shell is a cavity in the smallest solid around it. If there is no
-    /// solid around it, it lies in a cavity and is reversed.
+    /// Treats a shell whose faces point inward. It is a cavity in the smallest solid around it; if
+    /// there is no solid around it, it lies in a cavity and is reversed.
     void face_inner(size_t i) {
         int depth = 0;
         int within = -1;
@@ -270,7 +270,7 @@ class Nesting {
     bool any_right_ = false;
 };
 
-/// Edges that do not join two faces of the same orientation.
+/// Number of edges that do not join two faces of the same orientation.
 size_t count_faulty(const Mesh& mesh) {
     std::map<Edge, int> edges;
     for (const std::vector<int>& f : mesh.faces) {
@@ -282,7 +282,7 @@ size_t count_faulty(const Mesh& mesh) {
     }));
 }
 
-/// The fault at an unbalanced edge.
+/// Description of the fault at an unbalanced edge.
 std::string fault_at(const Mesh& mesh, const Edge& edge) {
     size_t forward = 0;
     size_t back = 0;
@@ -298,7 +298,7 @@ std::string fault_at(const Mesh& mesh, const Edge& edge) {
     return fmt::format("where {} faces meet", forward + back);
 }
 
-/// Distance of a point from an edge, including its ends.
+/// Distance between a point and an edge, including the ends of the edge.
 double distance(const Mesh& mesh, int point, const Edge& edge) {
     const Vec3& a = corner(mesh, edge.first);
     const Vec3 along = corner(mesh, edge.second) - a;
@@ -307,15 +307,15 @@ double distance(const Mesh& mesh, int point, const Edge& edge) {
     return (p - share * along).norm();
 }
 
-/// A corner near an edge of which it is not an end, in words, if the two were probably meant to
-/// meet; "" if there is none.
+/// Describes a corner that lies near an edge but is not one of its ends, if the two were probably
+/// meant to meet; "" if there is none.
 std::string near_miss(const Mesh& mesh, const std::map<Edge, int>& open, double rounding,
                       const MeshName& name) {
     std::set<int> ends;
     for (const auto& [edge, count] : open) ends.insert({edge.first, edge.second});
     int nearest = -1;
     double gap = 1000 * rounding;
-    constexpr size_t kMost = 3000;  // all pairs are examined
+    constexpr size_t kMost = 3000;  // limit on the corners, because all pairs are examined
     for (const auto& [edge, count] : open) {
         if (open.size() > kMost) break;
         for (const int end : ends) {
@@ -334,7 +334,7 @@ std::string near_miss(const Mesh& mesh, const std::map<Edge, int>& open, double 
         name.word);
 }
 
-/// The error for a mesh that remains open.
+/// Returns the error for a mesh that is still open after mending.
 Error not_closed(const Mesh& mesh, const Mesh& best, double rounding, const MeshName& name) {
     const std::map<Edge, int> open = open_edges(best);
     const Edge& first = open.begin()->first;

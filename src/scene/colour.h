@@ -1,4 +1,4 @@
-// Colours in the notation of files: "#rrggbb".
+// Colours in the notation used in files: "#rrggbb".
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace dihaptic::scene {
 
-/// 65536 red + 256 green + blue of "#rrggbb"; nullopt for any other text.
+/// Converts "#rrggbb" to 65536 red + 256 green + blue; nullopt if the text is not of this form.
 std::optional<int32_t> colour_of(const std::string& text);
 
-/// The same, but -1 for an empty text, and for a text that is not a colour, with a report to
-/// `diagnostics`.
+/// Like colour_of(), but returns -1 if the text is empty or is not a colour. The latter is reported
+/// to `diagnostics`.
 int32_t read_colour(const std::string& text, const Place& place, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::scene

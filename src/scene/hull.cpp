@@ -13,7 +13,7 @@ extern "C" {
 namespace dihaptic::scene {
 namespace {
 
-/// Twice the area of a face, along its normal.
+/// The normal of a face, with twice the face's area as its length.
 Vec3 twice_area(const Hull& hull, const std::vector<int>& face) {
     Vec3 out = Vec3::Zero();
     const Vec3& first = hull.vertices[static_cast<size_t>(face[0])];
@@ -29,13 +29,13 @@ double area(const Hull& hull) {
     return sum;
 }
 
-/// Bullet's hull rounds coordinates to a ten-thousandth of their extent, and merges corners, or
-/// flips faces, that are closer together than this.
+/// Computes a hull with Bullet, which rounds coordinates to a ten-thousandth of their extent, and
+/// merges corners or flips faces that are closer together than this.
 Hull quick_hull(std::span<const Vec3> points) {
     Hull hull;
     btConvexHullComputer computer;
     computer.compute(points.front().data(), sizeof(Vec3), static_cast<int>(points.size()), 0, 0);
-    // the original points are exact
+    // uses the original points, which are exact
     for (int i = 0; i < computer.vertices.size(); ++i) {
         hull.vertices.push_back(points[static_cast<size_t>(computer.original_vertex_index[i])]);
     }
@@ -52,12 +52,12 @@ Hull quick_hull(std::span<const Vec3> points) {
     return hull;
 }
 
-/// Whether every face is flat and has all points behind it, up to rounding. Hulls of very many
-/// points, which would take long, are not checked.
+/// Whether, up to rounding, every face is flat and all points lie behind it. Hulls of very many
+/// points are not checked, because this would take too long.
 bool is_exact(const Hull& hull, std::span<const Vec3> points, double extent) {
     constexpr double kMostWork = 1e8;
     constexpr double kThin = 1e-9;      // thickness of a face, as a fraction of the extent
-    constexpr double kRounding = 1e-7;  // rounding in files, likewise
+    constexpr double kRounding = 1e-7;  // rounding in files, as a fraction of the extent
     if (static_cast<double>(hull.faces.size()) * static_cast<double>(points.size()) > kMostWork)
         return false;
     return std::all_of(hull.faces.begin(), hull.faces.end(), [&](const std::vector<int>& face) {
@@ -75,7 +75,7 @@ bool is_exact(const Hull& hull, std::span<const Vec3> points, double extent) {
     });
 }
 
-/// Qhull's state, which must be freed.
+/// The state of Qhull, which has to be freed.
 class Qhull {
   public:
     explicit Qhull(std::span<const Vec3> points) : coordinates_(points.begin(), points.end()) {
@@ -99,7 +99,7 @@ class Qhull {
     Hull hull() {
         Hull out;
         if (failed_) return out;
-        std::map<int, int> index;  // by the point's number
+        std::map<int, int> index;  // indexed by the number of the point
         for (facetT* facet = state_.facet_list; facet != nullptr && facet->next != nullptr;
              facet = facet->next) {
             std::vector<int>& face = out.faces.emplace_back();
@@ -140,10 +140,10 @@ Hull convex_hull(std::span<const Vec3> points) {
     }
     const double extent = (high - low).norm();
     Hull hull = quick_hull(points);
-    // Bullet is tried first, because recordings depend on its order of corners and faces
+    // Bullet is tried first, because recordings depend on the order of its corners and faces
     if (hull.faces.size() < 4 || !is_exact(hull, points, extent)) hull = Qhull(points).hull();
     if (hull.faces.size() < 4) return {};
-    // neither a needle nor a leaf, whose volume and area are only rounding errors
+    // needles and leaves are refused, because their volume or area consists only of rounding errors
     const double surface = area(hull);
     const double thickness = 2 * integrate(hull.vertices, hull.faces).volume / surface;
     if (!(surface > 1e-6 * extent * extent && thickness > 1e-6 * extent)) return {};
@@ -154,7 +154,7 @@ VolumeIntegrals integrate(std::span<const Vec3> vertices, std::span<const std::v
     double volume = 0;
     Vec3 first = Vec3::Zero();   // integral of x
     Mat3 second = Mat3::Zero();  // integral of x x^T
-    // far from the origin the tetrahedra would nearly cancel, leaving rounding errors
+    // far from the origin, the tetrahedra would nearly cancel out, leaving only rounding errors
     constexpr double kFar = 1;  // [m]
     const bool is_far = !vertices.empty() && vertices.front().norm() > kFar;
     const Vec3 origin = is_far ? vertices.front() : Vec3::Zero();

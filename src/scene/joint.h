@@ -11,43 +11,47 @@
 
 namespace dihaptic::scene {
 
-/// Joined bodies do not touch each other, unless `collide` is set or the joint is a distance
-/// joint. The joint coordinate is that of the second body relative to the first, zero at the
-/// start; for a distance joint it is the distance itself.
+/// A joint between two bodies, or between a body and the world. Joined bodies do not touch each
+/// other, unless `collide` is set or the joint is a distance joint. The joint coordinate is that of
+/// the second body relative to the first and is zero at the start; for a distance joint, it is the
+/// distance itself.
 struct Joint {
     std::string name;
     JointKind kind = JointKind::hinge;
-    std::vector<std::string> between;  ///< two bodies, or one joined to the world
-    std::string in;                    ///< frame in a file; complete() converts all to the world's
-    Vec3 position = Vec3::Zero();      ///< position of the joint's point at the start [m]
-    Vec3 axis = Vec3::UnitZ();         ///< at the start, of any length
-    Vec3 second_axis = Vec3::UnitX();  ///< second axis of a universal joint
-    std::optional<Vec3> second_position;  ///< for a distance joint: the second body's point [m]
+    std::vector<std::string> between;  ///< two bodies, or one that is joined to the world
+    /// Name of the body in whose frame the file gives the joint; complete() converts everything to
+    /// the world frame.
+    std::string in;
+    Vec3 position = Vec3::Zero();         ///< initial position of the joint [m]
+    Vec3 axis = Vec3::UnitZ();            ///< initial direction of the axis; need not be normalised
+    Vec3 second_axis = Vec3::UnitX();     ///< second axis of a universal joint
+    std::optional<Vec3> second_position;  ///< for a distance joint: point on the second body [m]
     /// For the free axis of a hinge or slider, or for a distance joint.
     double stiffness = 0;       ///< [N/m] or [N*m/rad]
-    SpringCurve curve;          ///< replaces the stiffness
+    SpringCurve curve;          ///< used in place of the stiffness
     double rest = 0;            ///< coordinate at which the spring is relaxed [m] or [rad]
     double damping = 0;         ///< [N*s/m] or [N*m*s/rad]
-    double friction = 0;        ///< dry [N] or [N*m]
-    std::optional<double> low;  ///< stops [m] or [rad]
+    double friction = 0;        ///< dry friction [N] or [N*m]
+    std::optional<double> low;  ///< lower and upper stops [m] or [rad]
     std::optional<double> high;
-    /// For a bushing: its axes at the start, turned from the world's about x, then y, then z; the
-    /// first body carries them along. An axis without a spring and a damper is free.
+    /// For a bushing: the initial orientation of its axes, rotated from the world's axes about x,
+    /// then y, then z. The axes move with the first body. An axis without a spring and a damper is
+    /// free.
     Vec3 rotation = Vec3::Zero();          ///< [rad]
     Vec3 stiffnesses = Vec3::Zero();       ///< [N/m]
     Vec3 turn_stiffnesses = Vec3::Zero();  ///< [N*m/rad]
     Vec3 dampings = Vec3::Zero();          ///< [N*s/m]
     Vec3 turn_dampings = Vec3::Zero();     ///< [N*m*s/rad]
     bool collide = false;
-    bool recorded = true;  ///< whether it is recorded, and available to tasks by its name
+    bool recorded = true;  ///< whether the joint is recorded, and available to tasks by its name
     Place place;
 
     const JointKindRow& row() const { return describe(kind); }
     bool is_distance() const { return row().coordinate == Coordinate::distance; }
     bool has_coordinate() const { return row().has_coordinate(); }
-    /// Whether the joint coordinate, if any, is a length.
+    /// Whether the joint has a coordinate that is a length.
     bool slides() const { return has_coordinate() && row().coordinate != Coordinate::angle; }
-    /// Whether a distance joint has no limits; it is then a rod.
+    /// Whether a distance joint has neither a spring nor limits, which makes it a rod.
     bool is_rod() const { return is_distance() && !has_axis_spring() && !low && !high; }
     /// Whether the joined bodies can touch each other.
     bool lets_touch() const { return collide || row().sliding == Sliding::any; }
@@ -89,7 +93,7 @@ struct Joint {
           says("Whether the joint is recorded, so that tasks can use its name."));
     }
 
-    static constexpr double kStiffest = 1e7;  // limit of its springs [N/m] or [N*m/rad]
+    static constexpr double kStiffest = 1e7;  // limit for the joint's springs [N/m] or [N*m/rad]
 
   private:
     static constexpr double kMostForce = 1e4;

@@ -1,7 +1,8 @@
 // The kinds of joints, in one table. A joint has a frame F on its first body and a frame G on its
-// second body, both with the joint's axis along x at the start. A kind's row states which motions
-// of G in F the joint leaves free; checks of files, equations (dynamics/bullet/joints.h), records,
-// motors, placements in tasks and marks in pictures follow from it.
+// second body, both with the joint's axis along x at the start. The row of a kind states which
+// motions of G relative to F the joint leaves free. It determines how files are checked, the
+// equations (dynamics/bullet/joints.h), and how joints are recorded, driven by motors, placed in
+// tasks and marked in pictures.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,11 +18,11 @@ namespace dihaptic::scene {
 
 enum class JointKind { hinge, slider, ball, universal, fixed, distance, bushing };
 
-/// How G's origin may move in F.
+/// How the origin of G may move relative to F.
 enum class Sliding { none, along_axis, any };
-/// How G may turn in F; the second of two axes is fixed in the second body.
+/// How G may rotate relative to F. If there are two axes, the second is fixed in the second body.
 enum class Turning { none, about_axis, about_two_axes, any };
-/// The joint coordinate: the angle about the axis, the displacement along it, or the distance
+/// The joint coordinate: the angle about the axis, the displacement along the axis, or the distance
 /// between the two origins.
 enum class Coordinate { none, angle, displacement, distance };
 
@@ -31,10 +32,10 @@ struct JointKindRow {
     Sliding sliding;
     Turning turning;
     Coordinate coordinate;
-    /// For docs/files/joints.md: the free motion, and the coordinate.
+    /// The free motion and the coordinate, in words for docs/files/joints.md.
     const char* leaves_free;
     const char* coordinate_is = "";
-    bool yields = false;  ///< it opposes all motion with springs and dampers, and prevents none
+    bool yields = false;  ///< it opposes all motion with springs and dampers and prevents none
 
     constexpr bool has_coordinate() const { return coordinate != Coordinate::none; }
     /// Whether the coordinate is an angle about the axis or a displacement along it.
@@ -43,7 +44,7 @@ struct JointKindRow {
     }
 };
 
-/// A row for each JointKind, in the same order.
+/// The table of kinds, with a row for each JointKind in the same order.
 constexpr JointKindRow kJointKindTable[] = {
     {"hinge", "a hinge", Sliding::none, Turning::about_axis, Coordinate::angle,
      "turning about `axis`", "the angle of the second body relative to the first, about the axis"},
@@ -73,8 +74,8 @@ constexpr const JointKindRow& describe(JointKind kind) noexcept {
     return kJointKindTable[static_cast<size_t>(kind)];
 }
 
-/// The kinds that fit, for messages: "a hinge, a slider or a distance joint". At least two have to
-/// fit.
+/// The kinds for which the given function is true, for use in messages: "a hinge, a slider or a
+/// distance joint". There must be at least two.
 inline std::string kinds_that(bool (JointKindRow::*fit)() const,
                               const char* JointKindRow::*word = &JointKindRow::noun,
                               const char* last = " or ") {

@@ -13,17 +13,17 @@
 namespace dihaptic::scene {
 namespace {
 
-/// A scene with more blocks could not be stepped within a tick.
+/// Largest number of blocks; a scene with more blocks could not be simulated in real time.
 constexpr int kMostParts = 200;
 
-/// Saint-Venant's torsion constant of a rectangle (Roark and Young 1975, within 0.1 %) [m^4].
+/// Saint-Venant's torsion constant of a rectangle (Roark and Young 1975, accurate to 0.1 %) [m^4].
 double torsion_constant(double side, double other) {
     const auto [shorter, longer] = std::minmax(side, other);
     const double r = shorter / longer;
     return longer * std::pow(shorter, 3) * (1.0 / 3 - 0.21 * r * (1 - std::pow(r, 4) / 12));
 }
 
-/// The bodies and joints made from a lattice.
+/// Builds the bodies and joints of a lattice.
 class Builder {
   public:
     Builder(const Lattice& lattice, Scene& scene)
@@ -63,7 +63,7 @@ class Builder {
                     : fmt::format("{}_{}_{}", i[0] + 1, i[1] + 1, i[2] + 1);
     }
     std::string name(const Index& i) const { return lattice_.name + "_" + suffix(i); }
-    /// Centre of a block in the lattice's axes [m].
+    /// Centre of a block, in the axes of the lattice [m].
     Vec3 centre(const Index& i) const {
         return block_.cwiseProduct(i.cast<double>() + Vec3::Constant(0.5)) - lattice_.size / 2;
     }
@@ -78,7 +78,7 @@ class Builder {
         body.position = X_WL_ * centre(i);
         body.rotation = lattice_.rotation;
         body.friction = lattice_.friction;
-        // under pressure from outside, the half of the block below the face yields too
+        // when something presses on a face from outside, the half block below the face also yields
         double stiffness = 1;
         for (int a = 0; a < 3; ++a)
             stiffness *= 2 * lattice_.young * block_.prod() / (block_[a] * block_[a]);
@@ -90,8 +90,8 @@ class Builder {
         scene_.bodies.push_back(body);
     }
 
-    /// A link across the block's face along axis a: `at` blocks beyond its centre, between points
-    /// that are `length` apart.
+    /// Adds a link across the face of a block along axis a. The link is `at` block lengths beyond
+    /// the block's centre, between points that are `length` apart.
     void add_link(const Index& i, int a, double at, double length, std::vector<std::string> between,
                   const std::string& what) {
         const int b = (a + 1) % 3, c = (a + 2) % 3;
@@ -131,7 +131,7 @@ class Builder {
     const Lattice& lattice_;
     Scene& scene_;
     Pose X_WL_;
-    Vec3 block_;  // size of one block
+    Vec3 block_;  // size of one block [m]
     Index count_;
     bool rod_;
 };

@@ -1,17 +1,19 @@
-// Describes a soft body, such as a sponge or a flexible rod, as given in a scene file: rigid blocks
-// in rows and layers, with springs between neighbours that yield like the material.
+// Describes a soft body, such as a sponge or a flexible rod, as given in a scene file: rows and
+// layers of rigid blocks, joined by springs that yield like the material.
 //
-// With Young's modulus E and the shear modulus G, two blocks with centres L apart that
-// meet in a face of area A are joined by a bushing in the middle of this face, with
+// For a material with Young's modulus E and shear modulus G, two blocks whose centres are a
+// distance L apart and that share a face of area A are joined by a bushing in the middle of this
+// face, with
 //
 //     k = E A / L across it     G A / L along it     E I / L about its sides     G J / L about its
 //     normal
 //
-// where I are the face's second moments of area and J is Saint-Venant's torsion constant. Bars and
-// beams made in this way stretch, shear and twist as in the textbooks, and n blocks bend as a beam
-// within 1 / (2 n^2). A block's sides do not bulge when it is pressed: Poisson's ratio is 0. Its
-// faces are soft, with 2 E A / L (the mean of its three sides), because an object that presses on
-// them is half a block away from the first link.
+// where I denotes the face's second moments of area and J is Saint-Venant's torsion constant. Bars
+// and beams made in this way stretch, shear and twist as described in textbooks, and the bending of
+// n blocks agrees with that of a beam to within 1 / (2 n^2). The sides of a block do not bulge when
+// it is pressed, i.e. Poisson's ratio is 0. The faces of a block are soft, with a stiffness of 2 E
+// A / L (averaged over its three directions), because an object that presses on a face is half a
+// block away from the first link.
 #pragma once
 
 #include <array>
@@ -28,16 +30,17 @@ namespace dihaptic::scene {
 
 struct Scene;
 
-/// A face of a lattice, by its outward normal -x, +x and so on in the lattice's axes.
+/// A face of a lattice, named after its outward normal: -x, +x and so on in the axes of the
+/// lattice.
 enum class Side { x_low, x_high, y_low, y_high, z_low, z_high };
 constexpr auto enum_names(Side) {
     return std::array{"-x", "+x", "-y", "+y", "-z", "+z"};
 }
 
-/// A face of a lattice that is glued to a body, or to the world, by links that are half as long.
+/// A face of a lattice that is glued to a body or to the world, by links of half the usual length.
 struct Glued {
     Side side = Side::x_low;
-    std::string to;  ///< body; empty: the world
+    std::string to;  ///< name of the body; empty stands for the world
     Place place;
 
     template <class Visitor>
@@ -50,14 +53,14 @@ struct Glued {
 struct Lattice {
     std::string name;
     Vec3 size = Vec3::Zero();       ///< size of the entire lattice [m]
-    Vec3 parts{2, 2, 2};            ///< number of blocks along its x, y and z
-    Vec3 position = Vec3::Zero();   ///< position of its centre at the start [m]
-    Vec3 rotation = Vec3::Zero();   ///< about the fixed axes x, then y, then z [rad]
-    std::optional<double> mass;     ///< mass of the entire lattice [kg]; this or the density
+    Vec3 parts{2, 2, 2};            ///< number of blocks along the lattice's x, y and z axes
+    Vec3 position = Vec3::Zero();   ///< initial position of the lattice's centre [m]
+    Vec3 rotation = Vec3::Zero();   ///< rotation about the fixed axes x, then y, then z [rad]
+    std::optional<double> mass;     ///< mass of the entire lattice [kg]; replaces the density
     std::optional<double> density;  ///< [kg/m^3]
     double young = 1e5;             ///< E [Pa]
-    std::optional<double> shear;    ///< G [Pa]; unset: E / 2
-    double retardation = 0;         ///< damping over stiffness (Kelvin and Voigt) [s]
+    std::optional<double> shear;    ///< shear modulus G [Pa]; E / 2 if unset
+    double retardation = 0;         ///< ratio of damping to stiffness (Kelvin-Voigt model) [s]
     double friction = 0.8;
     std::string colour;
     std::vector<Glued> glued;
@@ -98,7 +101,7 @@ struct Lattice {
     }
 };
 
-/// Turns the scene's lattices into bodies and joints, which follow the existing ones.
+/// Turns the lattices of a scene into bodies and joints, which are appended to the existing ones.
 void expand_lattices(Scene& scene, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::scene

@@ -12,7 +12,7 @@
 namespace dihaptic::scene {
 namespace {
 
-/// Pictures by file.
+/// Pictures indexed by file.
 using Pictures = std::map<std::string, std::shared_ptr<const Image>>;
 
 /// The largest extent of a mesh along any axis [m].
@@ -25,7 +25,8 @@ double extent_of(const Mesh& mesh) {
     return (box.high - box.low).maxCoeff();
 }
 
-/// Checks that the seen and the felt shape have similar sizes; otherwise a unit is wrong.
+/// Checks that the seen shape and the felt shape have similar sizes; if they do not, a unit is
+/// probably wrong.
 void check_size(double seen, double felt, const SeenMesh& mesh, Diagnostics& diagnostics) {
     if (felt <= 0 || (seen < 2 * felt && felt < 2 * seen)) return;
     diagnostics.warning(

@@ -1,4 +1,5 @@
-// Describes how a body looks, apart from its shape and colour. None of it is felt.
+// Describes how a body looks, apart from its shape and colour. This has no effect on how the body
+// feels.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 
 namespace dihaptic::scene {
 
-/// How a surface reflects: like plastic, not at all, or like metal in its colour.
+/// How a surface reflects light: like plastic, not at all, or like metal in the surface's colour.
 enum class Finish { satin, matt, metal };
 constexpr auto enum_names(Finish) {
     return std::array{"satin", "matt", "metal"};
@@ -20,11 +21,11 @@ constexpr auto enum_names(Finish) {
 
 /// A mesh drawn in place of a body's shape.
 struct SeenMesh {
-    std::string file;  ///< OBJ, STL, PLY or OFF, relative to the scene file
+    std::string file;  ///< an OBJ, STL, PLY or OFF file, relative to the scene file
     MeshUnit unit = MeshUnit::m;
-    std::shared_ptr<const Mesh> mesh;  ///< without colours if other colours are drawn
+    std::shared_ptr<const Mesh> mesh;  ///< the mesh itself, without colours if others are drawn
     Place place;                       ///< where the scene file gives the mesh file
-    Place unit_place;                  ///< where it gives the unit
+    Place unit_place;                  ///< where the scene file gives the mesh's unit
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -43,15 +44,15 @@ struct SeenMesh {
 struct Body;
 struct Scene;
 
-/// Whether a mesh's own colours are drawn, because the body has no other colour.
+/// Whether the mesh is drawn in its own colours, because the body has no other colour.
 bool has_own_colours(const Body& body);
 
 /// Warns if a mesh has no colours although it names a materials file.
 void check_materials(const Mesh& mesh, const std::string& file, const Place& place,
                      Diagnostics& diagnostics);
 
-/// Reads the pictures and meshes with which bodies are drawn, until `stop`. Their files are
-/// relative to `folder`.
+/// Reads the pictures and meshes with which bodies are drawn, until `stop` is requested. File names
+/// are relative to `folder`.
 void load_looks(Scene& scene, const std::string& folder, Diagnostics& diagnostics,
                 const std::stop_token& stop);
 

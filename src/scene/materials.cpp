@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int64_t kLargestMaterials = 10'000'000;  // bytes: about thirty per line
+constexpr int64_t kLargestMaterials = 10'000'000;  // size limit: thirty bytes per line [bytes]
 constexpr const char* kBlanks = " \t\r";
 
 std::string trimmed(std::string_view text) {
@@ -25,7 +25,7 @@ std::string trimmed(std::string_view text) {
     return std::string(text.substr(from, text.find_last_not_of(kBlanks) + 1 - from));
 }
 
-/// The rest of the first line that starts with the keyword.
+/// Returns the rest of the first line that starts with the keyword.
 std::string_view line_of(std::string_view text, std::string_view keyword) {
     size_t at = text.find(keyword);
     while (at != std::string_view::npos && at > 0 && text[at - 1] != '\n')
@@ -35,7 +35,7 @@ std::string_view line_of(std::string_view text, std::string_view keyword) {
     return rest.substr(0, rest.find('\n'));
 }
 
-/// 65536 red + 256 green + blue from fractions of 0 to 1.
+/// Returns 65536 red + 256 green + blue, computed from fractions between 0 and 1.
 int32_t rgb_of(const std::array<double, 3>& shares) {
     int32_t out = 0;
     for (const double share : shares)
@@ -47,7 +47,7 @@ int32_t rgb_of(const std::array<double, 3>& shares) {
 
 std::string materials_of(const std::string& file, std::string_view text) {
     std::string name = trimmed(line_of(text, "mtllib "));
-    // programs write paths of the machine on which they ran
+    // programs write paths that were valid on the machine on which they ran
     if (const size_t folder = name.find_last_of("/\\"); folder != std::string::npos)
         name.erase(0, folder + 1);
     if (name.empty()) return "";

@@ -9,7 +9,7 @@
 namespace dihaptic::scene {
 namespace {
 
-/// The mesh with vertex i replaced by vertex `into[i]`.
+/// Returns the mesh with each vertex i replaced with vertex `into[i]`.
 Mesh joined(const Mesh& mesh, const std::vector<int>& into) {
     Mesh out;
     std::vector<int> index(mesh.vertices.size(), -1);
@@ -21,7 +21,7 @@ Mesh joined(const Mesh& mesh, const std::vector<int>& into) {
         }
         return index[kept];
     };
-    // vertices first, so that they keep their order
+    // numbers the vertices first, so that they keep their order
     for (int i = 0; i < static_cast<int>(mesh.vertices.size()); ++i) number(i);
     for (const std::vector<int>& f : mesh.faces) {
         const std::array<int, 3> t{number(f[0]), number(f[1]), number(f[2])};
@@ -30,7 +30,7 @@ Mesh joined(const Mesh& mesh, const std::vector<int>& into) {
     return out;
 }
 
-/// Drops pairs of opposite faces with the same corners.
+/// Removes pairs of faces that have the same corners and opposite orientations.
 void drop_back_to_back(Mesh& mesh) {
     const auto turned = [](std::vector<int> f) {
         std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
@@ -53,7 +53,7 @@ void drop_back_to_back(Mesh& mesh) {
     std::erase_if(mesh.faces, [&](const std::vector<int>&) { return dropped.contains(at++); });
 }
 
-/// The first known vertex within a distance of each vertex.
+/// Finds, for a vertex, the first known vertex within a given distance.
 class Neighbours {
   public:
     explicit Neighbours(double distance) : distance_(distance) {}
@@ -102,7 +102,7 @@ double height(const Mesh& mesh, const std::vector<int>& f) {
     return a.cross(b).norm() / std::max({a.norm(), b.norm(), (b - a).norm()});
 }
 
-/// The corners that lie on an edge, between its ends, from its first end to its second.
+/// The corners that lie on an edge, between its ends, ordered from its first end to its second.
 std::vector<int> corners_on(const Mesh& mesh, const Edge& edge, const std::set<int>& corners,
                             double rounding) {
     const Vec3& a = corner(mesh, edge.first);
@@ -120,7 +120,8 @@ std::vector<int> corners_on(const Mesh& mesh, const Edge& edge, const std::set<i
     return sorted;
 }
 
-/// Splits faces at corners of others that lie on one of their edges; false if there are none.
+/// Splits each face that has a corner of another face on one of its edges. Returns false if there
+/// is no such face.
 bool split(Mesh& mesh, double rounding) {
     const std::map<Edge, int> open = open_edges(mesh);
     std::set<int> corners;
@@ -193,7 +194,7 @@ Mended mended(const Mesh& mesh, double rounding) {
     std::erase_if(out.mesh.faces,
                   [&](const std::vector<int>& f) { return height(out.mesh, f) <= rounding; });
     drop_back_to_back(out.mesh);
-    // each round divides one edge of a face at all corners on it
+    // in each round, one edge of each face is divided at all the corners on it
     constexpr int kRounds = 100;
     for (int i = 0; i < kRounds && split(out.mesh, rounding); ++i) drop_back_to_back(out.mesh);
     return out;

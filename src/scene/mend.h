@@ -1,5 +1,5 @@
-// Mends the surfaces of meshes: merges corners that differ only by rounding, drops faces without
-// area, and divides an edge at each corner of another face that lies on it.
+// Mends the surfaces of meshes: merges corners that differ only by rounding, removes faces without
+// area, and divides an edge at each corner of another face that lies on the edge.
 #pragma once
 
 #include <array>
@@ -11,30 +11,31 @@
 
 namespace dihaptic::scene {
 
-using Edge = std::pair<int, int>;  ///< from one vertex to another, in a face's order
+using Edge = std::pair<int, int>;  ///< from one vertex to the next, in a face's order
 
 inline const Vec3& corner(const Mesh& mesh, int i) {
     return mesh.vertices[static_cast<size_t>(i)];
 }
 
-/// For each edge that is not balanced by faces in the other direction: the number of excess faces
-/// in this direction.
+/// The edges at which the numbers of faces in the two directions differ. For each, gives the number
+/// of excess faces in the edge's direction.
 std::map<Edge, int> open_edges(const Mesh& mesh);
 
-/// Corners closer than this are merged [m]: a millionth of the mesh's diagonal, and eight steps of
-/// a coordinate in single precision.
+/// Corners that are closer together than this are merged [m]: a millionth of the mesh's diagonal or
+/// eight steps of a single-precision coordinate, whichever is larger.
 double rounding_of(const Mesh& mesh);
 
-/// The mesh without colours, with corners at equal positions merged, and without faces that repeat
-/// a corner or lie back to back.
+/// Returns the mesh without colours, with corners at equal positions merged, and without faces that
+/// repeat a corner or lie back to back.
 Mesh merged(const Mesh& mesh);
 
 struct Mended {
     Mesh mesh;
-    double largest = 0;  ///< largest distance between merged corners [m]
+    double largest = 0;  ///< largest distance between corners that were merged [m]
 };
 
-/// The mesh with all these repairs, within `rounding`.
+/// Returns the mesh with all these repairs made, where distances of up to `rounding` are treated as
+/// zero.
 Mended mended(const Mesh& mesh, double rounding);
 
 }  // namespace dihaptic::scene

@@ -22,9 +22,9 @@ namespace {
 
 constexpr const char* kReader = "dihaptic-mesh";
 constexpr const char* kRemedy = "Export it again as OBJ, STL or PLY, with its surface.";
-constexpr int64_t kLargestFile = 400'000'000;  // bytes: millions of triangles
+constexpr int64_t kLargestFile = 400'000'000;  // size limit [bytes]: millions of triangles
 
-/// The name's ending in lower case if such files can be read, else "".
+/// The extension of the file's name in lower case, if such files can be read; otherwise "".
 std::string format_of(const std::string& file) {
     std::string ending = std::filesystem::path(file).extension().string();
     for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -34,8 +34,8 @@ std::string format_of(const std::string& file) {
     return "";
 }
 
-/// What an OBJ file lacks for a solid, which the reader does not report; "" if nothing is missing,
-/// or for another format.
+/// Describes what an OBJ file lacks for a solid, because the reader does not report it; "" if
+/// nothing is missing, or if the file has another format.
 std::string missing_in(const std::string& bytes, const std::string& format) {
     if (format != "obj") return "";
     std::istringstream in(bytes);
@@ -54,9 +54,10 @@ std::string missing_in(const std::string& bytes, const std::string& format) {
                        counted(vertices, "vertex", "vertices"), counted(faces, "face", "faces"));
 }
 
-/// Limits of time and memory for a file of `size` bytes. Good files take at most a tenth of this
-/// time and half of this memory: 0.04 s of computing per MB, and 12 to 150 bytes per byte, the
-/// latter for small OBJ files with more faces than vertices. A file that takes more is damaged.
+/// Time and memory limits for a file of `size` bytes. Intact files take at most a tenth of this
+/// time and half of this memory: 0.04 s of computing time per MB, and 12 to 150 bytes of memory per
+/// byte, the latter for small OBJ files with more faces than vertices. A file that takes more is
+/// damaged.
 CompanionLimits limits_for(uint64_t size) {
     CompanionLimits out;
     out.processor_time = static_cast<int>(2 + size / 2'000'000);
@@ -83,7 +84,7 @@ class Reader {
         at_ += sizeof(Item);
         return true;
     }
-    /// Text up to the next zero, or to the end.
+    /// Reads text up to the next zero byte, or to the end.
     std::string word() {
         const size_t end = std::min(bytes_.find('\0', at_), bytes_.size());
         std::string out = bytes_.substr(at_, end - at_);
@@ -96,7 +97,7 @@ class Reader {
     size_t at_ = 0;
 };
 
-/// Consecutive vertices of the same material.
+/// Consecutive vertices with the same material.
 struct MeshPart {
     size_t vertices = 0;
     std::string material;
@@ -107,8 +108,8 @@ struct MeshParts {
     std::vector<MeshPart> parts;
 };
 
-/// Reads colours and parts of a mesh, the last items from dihaptic-mesh; false if the parts are
-/// not those of the mesh.
+/// Reads the colours and parts of a mesh, which are the last items in the output of dihaptic-mesh.
+/// Returns false if the parts do not match the mesh.
 bool read_colours(Reader& in, uint64_t count, MeshParts& out) {
     const size_t vertices = out.mesh.vertices.size();
     out.mesh.colours.reserve(vertices);
@@ -124,8 +125,8 @@ bool read_colours(Reader& in, uint64_t count, MeshParts& out) {
     return left == 0 && in.left() == 0;
 }
 
-/// The mesh that dihaptic-mesh has written (app/mesh/main.cpp), whose coordinates are relative to
-/// `from`; nullopt if the bytes are not a mesh.
+/// Reads the mesh that dihaptic-mesh has written (app/mesh/main.cpp), whose coordinates are
+/// relative to `from`; nullopt if the bytes do not form a mesh.
 std::optional<MeshParts> mesh_of(const std::string& bytes, double unit,
                                  const std::array<double, 3>& from) {
     using Vertex = std::array<double, 3>;
@@ -155,8 +156,8 @@ std::optional<MeshParts> mesh_of(const std::string& bytes, double unit,
     return out;
 }
 
-/// Gives vertices without a colour the colour of their material; the mesh has no colours if no
-/// vertex gets one.
+/// Gives each vertex without a colour the colour of its material. If no vertex has a colour after
+/// that, the mesh has no colours.
 void add_materials(MeshParts& read) {
     Mesh& mesh = read.mesh;
     const Materials read_ones =
@@ -219,7 +220,7 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at,
         if (!v.allFinite()) throw refused("has a vertex that is not a number", "Export it again.");
     }
     if (mesh.faces.empty()) throw refused("has no triangles", "Export it again with its surface.");
-    // STL defines no colours: each program uses the spare bytes differently
+    // STL defines no colours, and each program uses the spare bytes differently
     if (format == "stl") std::fill(mesh.colours.begin(), mesh.colours.end(), -1);
     if (format == "obj") mesh.materials = materials_of(file, bytes);
     add_materials(*read);

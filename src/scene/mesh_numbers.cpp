@@ -21,13 +21,12 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-/// Reads a text line by line, without comments. In OBJ, a line may be continued by a
-/// backslash.
+/// Reads a text line by line, leaving out comments. In OBJ files, a backslash continues a line.
 class WordLines {
   public:
     WordLines(std::string_view text, bool continues) : text_(text), continues_(continues) {}
 
-    /// False at the end of the text.
+    /// Reads the next line. Returns false at the end of the text.
     bool next(Words& words) {
         words.clear();
         number_ += passed_;
@@ -46,9 +45,9 @@ class WordLines {
         }
         return false;
     }
-    /// Number of the line that next() returned.
+    /// Number of the line that next() returned last.
     int number() const { return number_; }
-    /// Start of the next line.
+    /// Position at which the next line starts.
     size_t at() const { return at_; }
 
   private:
@@ -74,24 +73,24 @@ class WordLines {
     bool continues_;
     size_t at_ = 0;
     int number_ = 1;
-    int passed_ = 0;  // lines taken by the last call
+    int passed_ = 0;  // number of lines read by the last call
 };
 
-/// A vertex in a file: x, y and z, and whether a fourth number scales them.
+/// A vertex as written in a file: x, y and z, and whether a fourth number scales them.
 struct Said {
     std::array<std::string_view, 3> xyz;
     bool is_scaled = false;
     int line = 0;
 };
 
-/// Checks a vertex and returns its fault, or "".
+/// Checks a vertex. Returns its fault, or "" if there is none.
 using Take = std::function<std::string(const Said&)>;
 
 std::string has_too_few(size_t found, size_t wanted, int line) {
     return fmt::format("has {} of the {} numbers of a vertex in line {}", found, wanted, line);
 }
 
-/// The vertices of OBJ and STL, whose lines start with a word.
+/// Checks each vertex of an OBJ or STL file, where the lines of vertices start with a word.
 std::string each_named(std::string_view text, std::string_view name, bool is_obj,
                        const Take& take) {
     WordLines lines(text, is_obj);
@@ -105,13 +104,13 @@ std::string each_named(std::string_view text, std::string_view name, bool is_obj
     return "";
 }
 
-/// The vertices of OFF. The mesh reader reports a malformed header.
+/// Checks each vertex of an OFF file. A malformed header is reported by the mesh reader.
 std::string each_off(std::string_view text, const Take& take) {
     WordLines lines(text, false);
     Words words;
     if (!lines.next_filled(words)) return "";
     if (words[0].size() > 3 && words[0].starts_with("OFF")) {
-        words[0].remove_prefix(3);  // as in ModelNet, where the counts follow at once
+        words[0].remove_prefix(3);  // as in ModelNet's files, where no space precedes the counts
     } else if (words[0].ends_with("OFF")) {
         if (words[0].find_first_of("4n") != std::string_view::npos) return "";
         words.erase(words.begin());
@@ -126,18 +125,18 @@ std::string each_off(std::string_view text, const Take& take) {
     return "";
 }
 
-/// The description of the vertices in the header of a PLY file.
+/// How the header of a PLY file describes the vertices.
 struct PlyHead {
-    size_t before = 0;  // lines or other items between the header and the first vertex
+    size_t before = 0;  // number of lines or other items between the header and the first vertex
     size_t count = 0;
-    size_t numbers = 0;                          // numbers per vertex
-    size_t bytes = 0;                            // bytes per vertex
-    std::array<std::optional<size_t>, 3> xyz{};  // positions of x, y and z among the numbers
-    std::array<size_t, 3> xyz_at{};              // their positions among the bytes
+    size_t numbers = 0;                          // number of values per vertex
+    size_t bytes = 0;                            // number of bytes per vertex
+    std::array<std::optional<size_t>, 3> xyz{};  // positions of x, y and z among the values
+    std::array<size_t, 3> xyz_at{};              // positions of x, y and z among the bytes
     int doubles = 0;                             // number of coordinates in double precision
     std::string format;
     bool has_lists = false;
-    size_t end = 0;  // end of the header
+    size_t end = 0;  // position at which the header ends
 };
 
 size_t size_of(std::string_view type) {
@@ -207,11 +206,11 @@ std::string each_vertex(std::string_view text, const std::string& format, const 
                            : each_named(text, "vertex", false, take);
 }
 
-/// The range of the vertices.
+/// The range of the vertices' coordinates.
 struct Extent {
     std::array<double, 3> low;
     std::array<double, 3> high;
-    double rounding = 0;  // largest error of a coordinate in single precision
+    double rounding = 0;  // largest rounding error of a coordinate in single precision
     bool is_scaled = false;
 
     Extent() {
@@ -235,8 +234,8 @@ struct Extent {
         is_scaled = is_scaled || said.is_scaled;
         return "";
     }
-    /// Whether single precision is insufficient: in a mesh around its origin, rounding is a
-    /// hundredth of this.
+    /// Whether single precision is insufficient. In a mesh around its origin, the rounding error is
+    /// a hundredth of this limit.
     bool is_far() const { return !is_scaled && rounding > 2e-7 * diagonal(); }
     std::array<double, 3> middle() const {
         return {std::round((low[0] + high[0]) / 2), std::round((low[1] + high[1]) / 2),
@@ -249,13 +248,13 @@ struct Extent {
     }
 };
 
-/// The text with all coordinates relative to a point.
+/// Returns the text with all coordinates relative to the point `from`.
 std::string counted_from(const std::array<double, 3>& from, const std::string& text,
                          const std::string& format) {
     std::string out;
     size_t done = 0;
     each_vertex(text, format, [&](const Said& said) {
-        std::array<std::pair<size_t, size_t>, 3> places;  // the position of each, and its axis
+        std::array<std::pair<size_t, size_t>, 3> places;  // position and axis of each coordinate
         for (size_t i = 0; i < 3; ++i)
             places[i] = {static_cast<size_t>(said.xyz[i].data() - text.data()), i};
         std::sort(places.begin(), places.end());
@@ -270,8 +269,8 @@ std::string counted_from(const std::array<double, 3>& from, const std::string& t
     return out.append(text, done);
 }
 
-/// Calls change(axis, coordinate) for all coordinates of a binary PLY file whose vertices, which
-/// come first, have double precision.
+/// Calls change(axis, coordinate) for all coordinates in a binary PLY file whose vertices come
+/// first and are in double precision.
 template <class Change>
 void each_double(std::string& bytes, const PlyHead& head, const Change& change) {
     const bool is_swapped =

@@ -11,7 +11,7 @@
 namespace dihaptic::scene {
 namespace {
 
-/// Binary STL: 80 arbitrary bytes, the number of triangles, then the triangles.
+/// A binary STL file consists of 80 arbitrary bytes, the number of triangles, and the triangles.
 constexpr size_t kCountAt = 80;
 constexpr size_t kHead = 84;
 constexpr size_t kTriangle = 50;
@@ -20,14 +20,15 @@ char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// Replaces line ends that are only a carriage return by a line feed, up to `end`.
+/// Up to position `end`, replaces each line end that is only a carriage return with a line feed.
 void end_lines(std::string& bytes, size_t end) {
     for (size_t i = 0; i < end; ++i) {
         if (bytes[i] == '\r' && (i + 1 == bytes.size() || bytes[i + 1] != '\n')) bytes[i] = '\n';
     }
 }
 
-/// Blanks out text after a # in lines of OBJ with numbers; names may contain a #.
+/// Blanks out comments, i.e. text after a #, in those lines of an OBJ file that contain numbers.
+/// Names may contain a #.
 void blank_comments(std::string& text) {
     constexpr std::string_view kOfNumbers = "vflp0123456789+-.";
     for (size_t begin = 0; begin < text.size();) {
@@ -43,7 +44,7 @@ void blank_comments(std::string& text) {
     }
 }
 
-/// The lines of OFF that are not just comments.
+/// The lines of an OFF file that contain more than a comment.
 std::string without_comments(std::string_view text) {
     std::string out;
     out.reserve(text.size());
@@ -57,7 +58,7 @@ std::string without_comments(std::string_view text) {
     return out;
 }
 
-/// The end of a PLY file's text.
+/// Position at which the text part of a PLY file ends.
 size_t end_of_text(const std::string& bytes) {
     constexpr std::string_view kEnd = "end_header";
     const size_t end = bytes.find(kEnd);
@@ -90,7 +91,7 @@ void set_count(std::string& bytes, size_t count) {
     for (size_t i = 0; i < 4; ++i) bytes[kCountAt + i] = static_cast<char>(count >> 8 * i & 0xff);
 }
 
-/// A binary STL file whose size does not match its count.
+/// Handles a binary STL file whose size does not match its number of triangles.
 MeshText tidy_binary_stl(std::string bytes) {
     if (bytes.size() < kHead)
         return {bytes, fmt::format("has {} bytes, fewer than an STL file's header", bytes.size())};

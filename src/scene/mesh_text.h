@@ -1,6 +1,6 @@
-// Cleans up real-world mesh files, with byte order marks, old line ends, capitals, comments after
-// numbers, spare bytes, or no count. The mesh reader handles none of these, and does not report
-// them.
+// Cleans up real-world mesh files, which may have byte order marks, old line ends, capitals,
+// comments after numbers or spare bytes, or may lack a count. The mesh reader neither handles nor
+// reports any of these.
 #pragma once
 
 #include <array>
@@ -9,12 +9,12 @@
 namespace dihaptic::scene {
 
 struct MeshText {
-    std::string bytes;             ///< in the form that the reader expects
-    std::string fault;             ///< the file's fault, to follow its name; "": none detected
+    std::string bytes;             ///< the file's content in the form that the reader expects
+    std::string fault;             ///< fault, worded to follow the file's name; "" if none
     std::array<double, 3> from{};  ///< position of the new origin in the file's coordinates
 };
 
-/// `format`: obj, stl, ply or off.
+/// Cleans up the content of a mesh file. `format` is obj, stl, ply or off.
 MeshText tidy(std::string bytes, const std::string& format);
 
 }  // namespace dihaptic::scene

@@ -1,5 +1,5 @@
-// Greatest length of a name of a body, finger or joint [bytes]: names become parts of paths in a
-// session's recording.
+// Maximum length of the name of a body, finger or joint [bytes]. It is limited because names become
+// parts of paths in the recording of a session.
 #pragma once
 
 #include <cstddef>

@@ -11,17 +11,17 @@
 
 namespace dihaptic::scene {
 
-/// An image of known size that repeats over a body. It is projected along the axes of the body's
-/// frame: at each point, along the axis closest to the surface's normal. Its middle is at
-/// the body's origin. Its up direction is z, and on surfaces that face along z it is y seen from
-/// above, and -y seen from below.
+/// An image of known size that is repeated over a body. It is projected along one of the axes of
+/// the body's frame, at each point along the axis closest to the surface normal. The middle of the
+/// image is at the body's origin. Its upward direction is z; on surfaces that face along z, it is y
+/// if seen from above, and -y if seen from below.
 struct Picture {
-    static constexpr int kMostPixels = 4096;  ///< along an edge
+    static constexpr int kMostPixels = 4096;  ///< limit along an edge
 
-    std::string file;                    ///< PNG, relative to the scene file
-    double width = 0;                    ///< repeat distance; the height follows [m]
-    std::shared_ptr<const Image> image;  ///< shared by bodies that name the same file
-    Place place;                         ///< where the scene file gives it
+    std::string file;                    ///< a PNG file, relative to the scene file
+    double width = 0;                    ///< repeat distance; the height follows from it [m]
+    std::shared_ptr<const Image> image;  ///< shared by all bodies that name the same file
+    Place place;                         ///< where the scene file gives the picture
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -35,8 +35,8 @@ struct Picture {
     }
 };
 
-/// Reads a PNG file whose edges have `fewest` to `most` pixels. Throws Error, with that place and
-/// the key `file`, when it is not a PNG file or has another size.
+/// Reads a PNG file with edges of `fewest` to `most` pixels. Throws Error, at that place and for
+/// the key `file`, if the file is not a PNG file or has another size.
 Image read_picture(const std::string& file, int fewest, int most, const Place& place);
 /// Like read_picture(), for a picture whose grey levels are data.
 GreyImage read_data(const std::string& file, int fewest, int most, const Place& place);

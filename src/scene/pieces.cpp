@@ -19,12 +19,12 @@
 namespace dihaptic::scene {
 namespace {
 
-/// Files of the first version may have pieces that do not fill the mesh.
+/// The first line of files of the first version, in which the pieces may not fill the mesh.
 constexpr const char* kUnchecked = "dihaptic pieces 1\n";
 constexpr const char* kFirstLine = "dihaptic pieces 2\n";
 constexpr const char* kDecomposer = "dihaptic-decompose";
 constexpr int64_t kMostPieces = 1'000'000'000;  // bytes
-/// Meshes with thousands of dents take minutes; the user can cancel the cut.
+/// Meshes with thousands of dents take minutes to cut, but the user can cancel the cut.
 constexpr CompanionLimits kLimits{
     .processor_time = 3600, .time = 2 * 3600, .memory = 16'000'000'000, .output = kMostPieces};
 
@@ -54,8 +54,8 @@ uint64_t fingerprint(const std::string& text) {
     return out.value();
 }
 
-/// The vertices of each piece, as dihaptic-decompose writes them: "piece <count>", then one vertex
-/// per line.
+/// Writes the vertices of each piece in the format of dihaptic-decompose: "piece <count>", then one
+/// vertex per line.
 std::string text_of(const std::vector<Hull>& hulls) {
     std::string out;
     for (const Hull& hull : hulls) {
@@ -65,10 +65,10 @@ std::string text_of(const std::vector<Hull>& hulls) {
     return out;
 }
 
-/// The content of "piece <count>" lines and vertices.
+/// What was read from "piece <count>" lines and the vertices after them.
 struct Parsed {
     std::vector<Hull> hulls;
-    std::optional<Vec3> lost;  ///< a corner in no hull, if possible one of a piece that is too thin
+    std::optional<Vec3> lost;  ///< a corner that is in no hull, preferably one of a thin piece
 };
 
 std::optional<Vec3> lost_of(const std::vector<Vec3>& points, const Hull& hull) {
@@ -100,13 +100,13 @@ std::optional<Parsed> parse(const std::string& text) {
                 if (!read(in, along)) return std::nullopt;
             }
         }
-        // sorted, so that pieces from a file equal newly cut ones to the bit
+        // sorted, so that pieces read from a file are bitwise equal to newly cut ones
         std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
             return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
         });
         Hull hull = convex_hull(points);
-        // slivers flattened by rounding have hardly any volume, and cannot be touched without their
-        // neighbours
+        // slivers that are flattened by rounding have hardly any volume, and cannot be touched
+        // without their neighbours
         const std::optional<Vec3> lost = lost_of(points, hull);
         if (lost && (hull.faces.empty() || !out.lost)) out.lost = lost;
         if (!hull.faces.empty()) out.hulls.push_back(std::move(hull));
@@ -115,15 +115,15 @@ std::optional<Parsed> parse(const std::string& text) {
     return out;
 }
 
-/// The pieces of a mesh in a file; nullopt if it has none. `volume` is the mesh's volume, which
-/// pieces of the first version must match.
+/// Reads the pieces of a mesh from a file; nullopt if the file does not contain them. `volume` is
+/// the volume of the mesh, which pieces written by the first version must match.
 std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh, double volume) {
     if (!is_there(file)) return std::nullopt;
     const std::string text = [&]() -> std::string {
         try {
             return read_bytes(file, kMostPieces);
         } catch (const Error&) {
-            return "";  // after this the mesh is cut again
+            return "";  // the mesh is then cut again
         }
     }();
     const bool is_checked = text.starts_with(kFirstLine);
@@ -140,7 +140,7 @@ std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh, double
     return out;
 }
 
-/// The input of dihaptic-decompose (app/decompose/main.cpp).
+/// Writes the input for dihaptic-decompose (app/decompose/main.cpp).
 std::string text_of(const ClosedMesh& solid) {
     std::string out;
     const auto add = [&](const Shell& shell, const char* kind, bool is_cavity) {
@@ -174,11 +174,11 @@ std::string text_of(const ClosedMesh& solid) {
 
 /// The output of dihaptic-decompose.
 struct Cut {
-    std::vector<Hull> hulls;       ///< none if the solid cannot be cut
+    std::vector<Hull> hulls;       ///< empty if the solid cannot be cut
     double volume = 0;             ///< volume of the solid [m^3]
-    double inverted = 0;           ///< volume that a shell encloses the wrong way round [m^3]
+    double inverted = 0;           ///< volume enclosed by shells that face the wrong way [m^3]
     std::optional<Vec3> crossing;  ///< where a shell crosses or touches itself
-    std::optional<Vec3> lost;      ///< as in Parsed
+    std::optional<Vec3> lost;      ///< see Parsed
 };
 
 Cut cut_of(const std::string& text) {
@@ -196,7 +196,7 @@ Cut cut_of(const std::string& text) {
             if (!read(in, out.volume) || !read(in, shells)) break;
         } else {
             if (const std::optional<Parsed> first = parse(text.substr(at))) {
-                // as they will be when read from a file
+                // rounds the pieces to the form that they will have when read from a file
                 if (std::optional<Parsed> again = parse(text_of(first->hulls)))
                     out.hulls = std::move(again->hulls);
                 out.lost = first->lost;
@@ -223,7 +223,7 @@ bool reach(const std::vector<Hull>& hulls, const Mesh& mesh) {
            (pieces.max() - whole.max()).norm() <= most;
 }
 
-/// The result of dihaptic-decompose with one of its methods.
+/// Runs dihaptic-decompose with one of its methods and returns the result.
 Cut cut_by(const std::string& way, const ClosedMesh& solid, const MeshName& name,
            const std::stop_token& stop) {
     const CompanionTask task{
@@ -239,7 +239,7 @@ Cut cut_by(const std::string& way, const ClosedMesh& solid, const MeshName& name
     return text ? cut_of(*text) : Cut{};
 }
 
-/// The reason for refusing a mesh, and the remedy; empty if it is accepted.
+/// The reason why a mesh is refused, and the remedy; both are empty if the mesh is accepted.
 struct Fault {
     std::string why;
     std::string remedy =
@@ -274,7 +274,7 @@ std::vector<Hull> decompose(const ClosedMesh& solid, const MeshName& name,
         try {
             cut = cut_by(way, solid, name, stop);
         } catch (const Error&) {
-            // the library crashes on some solids, which the other method may then cut
+            // the library crashes on some solids, which the other method may be able to cut
             if (stop.stop_requested() || way == "winding") throw;
             continue;
         }
@@ -301,8 +301,8 @@ void write_pieces(const Pieces& pieces, const std::string& file) {
 
 namespace {
 
-/// The file that stores the pieces of a mesh. It is in the user's own cache, because the mesh's
-/// folder may belong to somebody else; "" if the user has no home.
+/// Path of the file that stores the pieces of a mesh. The file is in the user's own cache, because
+/// the mesh's folder may belong to somebody else. "" if the user has no home directory.
 std::string kept_file(uint64_t print) {
     const std::string cache = user_cache();
     return cache.empty() ? "" : fmt::format("{}/dihaptic/pieces/{:016x}.pieces", cache, print);
@@ -319,7 +319,7 @@ void keep(const Pieces& pieces, const std::string& file) {
 
 namespace {
 
-/// Warns about overlapping shells, whose union is felt and weighed.
+/// Warns about overlapping shells: their union determines both the contact surface and the mass.
 void check_overlap(const ClosedMesh& solid, const Pieces& pieces, const MeshName& name,
                    Diagnostics& diagnostics) {
     const double shells = integrate(solid.mesh.vertices, solid.mesh.faces).volume;

@@ -10,7 +10,8 @@
 namespace dihaptic::scene {
 namespace {
 
-/// The weights of four pixels at t beyond the second one, and their derivatives.
+/// The weights of four pixels at a distance t beyond the second one, and the derivatives of these
+/// weights.
 struct Weights {
     std::array<double, 4> of{};
     std::array<double, 4> rise{};
@@ -23,7 +24,7 @@ Weights weights_at(double t) {
             {-u * u / 2, (3 * t * t - 4 * t) / 2, (4 * u - 3 * u * u) / 2, t * t / 2}};
 }
 
-/// Wraps an index of pixels into 0 to count - 1.
+/// Wraps a pixel index to the range from 0 to count - 1.
 size_t wrapped(int i, int count) {
     const int rest = i % count;
     return static_cast<size_t>(rest < 0 ? rest + count : rest);
@@ -43,7 +44,7 @@ ReliefPicture::ReliefPicture(int width, int height, std::vector<float> grey, std
 }
 
 ReliefPicture::Value ReliefPicture::at(double x, double y) const noexcept {
-    // the centre of the first pixel is half a pixel from the corner; rows run downward
+    // the centre of the first pixel is half a pixel from the corner, and rows run downwards
     double column = std::remainder(x, width_) + width_ / 2.0 - 0.5;
     double row = height_ / 2.0 - std::remainder(y, height_) - 0.5;
     const int i = static_cast<int>(std::floor(column));

@@ -1,4 +1,5 @@
-// A picture as a relief: its grey levels are smoothed to a height that has a slope everywhere.
+// Interprets a picture as a relief: its grey levels are smoothed to a height that has a slope
+// everywhere.
 #pragma once
 
 #include <cstddef>
@@ -9,33 +10,34 @@
 
 namespace dihaptic::scene {
 
-/// Grey values from 0 (black) to 1 (white) that repeat in both directions. Between pixels they are
-/// a uniform cubic B-spline (de Boor 1978), which is nowhere higher than the brightest pixel, and
-/// whose slope has no jumps.
+/// A relief of grey values from 0 (black) to 1 (white) that repeats in both directions. Between
+/// pixels, the height is a uniform cubic B-spline (de Boor 1978). It is nowhere higher than the
+/// brightest pixel, and its slope is continuous.
 class ReliefPicture {
   public:
-    /// Limits of the pixels along an edge.
+    /// Limits on the number of pixels along an edge.
     static constexpr int kFewest = 4;
     static constexpr int kMost = 2048;
 
     struct Value {
-        double height = 0;  ///< 0 to 1
-        double rise_x = 0;  ///< rise over one pixel to the right,
-        double rise_y = 0;  ///< and over one pixel upward
+        double height = 0;  ///< from 0 to 1
+        double rise_x = 0;  ///< rise over one pixel to the right
+        double rise_y = 0;  ///< rise over one pixel upwards
     };
 
-    /// Rows from top to bottom. Needs width x height values, and both edges within the limits.
+    /// `grey` has width x height values, in rows from top to bottom. Both edges must be within the
+    /// limits.
     ReliefPicture(int width, int height, std::vector<float> grey, std::string checksum = "");
 
     int width() const noexcept { return width_; }
     int height() const noexcept { return height_; }
-    /// Checksum of its file when it was read (base/checksum.h).
+    /// Checksum of the picture's file when it was read (base/checksum.h).
     const std::string& checksum() const noexcept { return checksum_; }
-    /// The relief at a point `x` pixels to the right of the picture's centre and `y` pixels above
-    /// it.
+    /// The relief at a point `x` pixels to the right of the centre of the picture and `y` pixels
+    /// above it.
     Value at(double x, double y) const noexcept;
-    /// The largest rise over a pixel in any direction, sampled four times per pixel along each
-    /// edge.
+    /// The steepest rise over one pixel in any direction, found by sampling four times per pixel
+    /// along each edge.
     double steepest() const noexcept { return steepest_; }
 
   private:
@@ -46,8 +48,8 @@ class ReliefPicture {
     double steepest_ = 0;
 };
 
-/// Reads a PNG file; colours are averaged over their channels. Throws Error, with that place and
-/// key, when it is not a PNG file, or is too large or small.
+/// Reads a PNG file, averaging over its colour channels. Throws Error, at that place and for that
+/// key, if the file is not a PNG file, or is too large or too small.
 ReliefPicture read_relief(const std::string& file, const Place& place);
 
 }  // namespace dihaptic::scene

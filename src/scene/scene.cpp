@@ -24,12 +24,13 @@
 namespace dihaptic::scene {
 namespace {
 
-/// Anything on a tabletop is smaller and lighter: beyond these limits a unit is probably wrong.
+/// Limits of plausible values: anything on a tabletop is smaller and lighter, so beyond these
+/// limits a unit is probably wrong.
 constexpr double kImplausibleSize = 3.0;   // [m]
 constexpr double kImplausibleMass = 20.0;  // [kg]
 
 std::vector<Finger> default_fingers() {
-    // pads of 20 x 20 x 5 mm whose faces point along x
+    // the default fingers are pads of 20 x 20 x 5 mm whose faces point along x
     Finger thumb;
     thumb.name = "thumb";
     thumb.shape = Shape::box({0.005, 0.020, 0.020});
@@ -44,17 +45,17 @@ void keep_colours(Shape& shape, const Mesh& mesh, const std::string& file,
     if (!mesh.colours.empty()) shape.coloured = std::make_shared<const Mesh>(mesh);
 }
 
-/// The meshes of a scene, each read only once, for any number of bodies.
+/// The meshes of a scene. Each mesh is read only once, however many bodies use it.
 class Meshes {
   public:
     Meshes(std::string folder, Diagnostics& diagnostics, const std::stop_token& stop)
         : folder_(std::move(folder)), diagnostics_(diagnostics), stop_(stop) {}
 
-    /// `coloured`: whether the meshes' colours are drawn.
+    /// Loads the mesh of a shape; `coloured` says whether the mesh's own colours are drawn.
     void load(Shape& shape, bool coloured);
 
   private:
-    /// Null, with a report, if the mesh could not be read.
+    /// Returns null if the mesh could not be read, and reports this.
     const Mesh* read(const std::string& file, double unit, const Place& place);
     void load_file(Shape& shape, bool coloured, const std::string& file);
 
@@ -106,7 +107,7 @@ void Meshes::load_file(Shape& shape, bool coloured, const std::string& file) {
         const MeshName name{file, place, metres(shape.unit), enum_name(shape.unit)};
         ClosedMesh solid = closed(mesh, name, diagnostics_);
         shape.pieces = convex_pieces(solid, name, diagnostics_, stop_);
-        // the overlap of shells counts once
+        // where shells overlap, the volume counts only once
         const VolumeIntegrals shells = integrate(solid.mesh.vertices, solid.mesh.faces);
         const VolumeIntegrals pieces = integrate(shape.pieces);
         shape.solid = is_same_size(shells.volume, pieces.volume) ? shells : pieces;
@@ -150,7 +151,8 @@ void check_parts(const Shape& shape, const Place& place, Diagnostics& diagnostic
     }
 }
 
-/// Whether the shape's integrals are known; they are unknown if its mesh could not be loaded.
+/// Whether the volume integrals of the shape are known. They are unknown if its mesh could not be
+/// loaded.
 bool has_volume(const Shape& shape) {
     return shape.kind != ShapeKind::plane && integrate(shape).volume > 0;
 }
@@ -162,10 +164,10 @@ void check_plausible(const Shape& shape, const Place& place, Diagnostics& diagno
     }
 }
 
-/// Checks the mass of a body that can move; false if the mass is impossible.
+/// Checks the mass of a body that can move. Returns false if the mass is impossible.
 bool check_weight(const Body& body, Diagnostics& diagnostics) {
     if (!body.mass && !body.density) {
-        if (body.weighed) return false;  // the wrong key has been reported
+        if (body.weighed) return false;  // the wrong key has already been reported
         diagnostics.error(body.place, body.name, "has neither mass nor density",
                           "Add mass_g or density_g_cm3, or fixed: yes.");
         return false;
@@ -209,7 +211,7 @@ void check_body(const Body& body, Diagnostics& diagnostics) {
     }
 }
 
-/// If there are too many objects, reports this, drops the excess and returns false.
+/// If there are more than `most` objects, reports this, removes the excess and returns false.
 template <class Thing>
 bool check_count(std::vector<Thing>& things, size_t most, const char* key,
                  Diagnostics& diagnostics) {
@@ -230,7 +232,8 @@ bool check_counts(Scene& scene, Diagnostics& diagnostics) {
     return out;
 }
 
-/// A body "thumb_proxy" and the thumb's proxy would both have a column thumb_proxy_position.
+/// Checks that no two columns have the same name: a body called "thumb_proxy" and the thumb's proxy
+/// would both have a column thumb_proxy_position.
 void check_columns(const Scene& scene, Diagnostics& diagnostics) {
     std::set<std::string> taken;
     for (const Finger& finger : scene.fingers) {
@@ -254,14 +257,15 @@ void check_columns(const Scene& scene, Diagnostics& diagnostics) {
     });
 }
 
-/// Names become parts of paths, in the session's folder and in its NWB file.
+/// Whether a text may be a name. Names become parts of paths in the session's folder and in its NWB
+/// file.
 bool may_be_name(const std::string& name) {
     return !name.starts_with('.') && name.find_first_of("/\\") == std::string::npos &&
            !find_fault(name, Lines::one);
 }
 
 void check_names(const Scene& scene, Diagnostics& diagnostics) {
-    // the default fingers thumb and index have no line in the file
+    // the default fingers, thumb and index, have no line in the file
     const bool in_file = !scene.fingers.empty() && !scene.fingers.front().place.file.empty();
     std::set<std::string> names;
     for (const Finger& finger : scene.fingers) {
@@ -335,7 +339,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
     }
 }
 
-/// Checks that the points of a distance joint are apart.
+/// Checks that the two points of a distance joint are apart.
 void check_points(const Joint& joint, Diagnostics& diagnostics) {
     if (joint.is_distance() != joint.second_position.has_value()) {
         diagnostics.error(joint.place, "second_position",
@@ -349,7 +353,7 @@ void check_points(const Joint& joint, Diagnostics& diagnostics) {
     }
 }
 
-/// Only a bushing has stiffnesses or dampings.
+/// Checks that a bushing, and no other joint, has stiffnesses or dampings for its axes.
 void check_bushing(const Joint& joint, Diagnostics& diagnostics) {
     const bool bushes = !joint.stiffnesses.isZero(0) || !joint.turn_stiffnesses.isZero(0) ||
                         !joint.dampings.isZero(0) || !joint.turn_dampings.isZero(0);
@@ -362,7 +366,8 @@ void check_bushing(const Joint& joint, Diagnostics& diagnostics) {
                                  : "Add e.g. stiffnesses_N_m: [500, 500, 2000].");
 }
 
-/// The points of a curve must ascend, and no line may be steeper than the stiffest spring allowed.
+/// Checks that the points of a curve are in ascending order, and that no segment is steeper than
+/// the stiffest spring allowed.
 void check_curve(const Joint& joint, Diagnostics& diagnostics) {
     const SpringCurve& curve = joint.curve;
     if (curve.stretch.empty() && curve.resistance.empty()) return;
@@ -396,7 +401,8 @@ void check_curve(const Joint& joint, Diagnostics& diagnostics) {
     }
 }
 
-/// A joint's springs, dampers, friction and stops are those of a free axis.
+/// Checks that a joint with springs, dampers, friction or stops has a free axis to which they
+/// apply.
 void check_axis(const Joint& joint, Diagnostics& diagnostics) {
     const bool asks = joint.has_axis_spring() || joint.damping > 0 || joint.friction > 0 ||
                       joint.low || joint.high;
@@ -424,7 +430,8 @@ void check_axis(const Joint& joint, Diagnostics& diagnostics) {
                           "Exchange the two.");
 }
 
-/// Warns about a joint that starts beyond its stops, because this would hurl the joined bodies.
+/// Warns about a joint that starts beyond its stops, because this would hurl the joined bodies
+/// away.
 void check_start(const Joint& joint, Diagnostics& diagnostics) {
     if (!joint.has_coordinate()) return;
     double start = 0;
@@ -441,8 +448,8 @@ void check_start(const Joint& joint, Diagnostics& diagnostics) {
         "Start within its stops; otherwise the first tick would hurl the joined bodies.");
 }
 
-/// Warns about joined bodies whose masses differ so much that rounding affects the light one's
-/// motion.
+/// Warns about joined bodies whose masses differ so much that rounding affects the motion of the
+/// lighter one.
 void check_masses(const Joint& joint, const Scene& scene, Diagnostics& diagnostics) {
     constexpr double kApart = 1e6;
     if (joint.between.size() != 2) return;
@@ -492,9 +499,9 @@ double thickness(const Body& body) {
     return (box.high - box.low).minCoeff();
 }
 
-/// Warns about bodies whose weight alone makes them sink deep into their support.
+/// Warns about bodies that sink deep into their support under their own weight.
 void check_softness(const Scene& scene, Diagnostics& diagnostics) {
-    constexpr double kDeep = 0.2;  // fraction of the thickness
+    constexpr double kDeep = 0.2;  // fraction of the body's thickness
     for (const Body& body : scene.bodies) {
         if (!body.surface.stiffness || !body.moves_at_all()) continue;
         const double depth = mass(body) * scene.gravity.norm() / *body.surface.stiffness;
@@ -540,7 +547,7 @@ void check_joints(const Scene& scene, Diagnostics& diagnostics) {
     }
 }
 
-/// Converts joints given in a body's frame to the world's.
+/// Converts the joints that are given in a body's frame to the world frame.
 void place_joints(Scene& scene, Diagnostics& diagnostics) {
     for (Joint& joint : scene.joints) {
         if (joint.in.empty()) continue;
@@ -559,14 +566,15 @@ void place_joints(Scene& scene, Diagnostics& diagnostics) {
     }
 }
 
-/// Radius of a sphere around the body's origin that contains it [m].
+/// Radius of a sphere around the body's origin that contains the body [m].
 double reach(const Body& body) {
     if (body.shape.kind == ShapeKind::plane) return std::numeric_limits<double>::infinity();
     const Bounds box = bounds(body.shape);
     return box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).norm();
 }
 
-/// Warns about bodies that start inside a fixed one: contact forces would push or shoot them out.
+/// Warns about bodies that start inside a fixed body, because contact forces would push or shoot
+/// them out.
 void check_overlaps(const Scene& scene, Diagnostics& diagnostics) {
     constexpr double kDeep = 1e-3;  // [m]
     std::vector<double> reaches;

@@ -19,17 +19,17 @@
 
 namespace dihaptic::scene {
 
-/// Limits for a scene. Beyond them a unit is wrong, or a body is too light to be
-/// simulated together with others.
+/// Limits for a scene. Beyond these limits, a unit is wrong, or a body is too light to be simulated
+/// together with the others.
 constexpr double kLightest = 1e-6;  // [kg]
 constexpr double kHeaviest = 1000;  // [kg]
-constexpr double kFurthest = 100;   // from the world's origin [m]
-/// Largest number of bodies, of joints and of pairs. Some checks compare every pair of them, and no
-/// tick could step a tenth of them.
+constexpr double kFurthest = 100;   // distance from the world's origin [m]
+/// Maximum numbers of bodies, of joints and of pairs. Some checks compare all of them with each
+/// other, and even a tenth of this number could not be simulated in real time.
 constexpr size_t kMostThings = 4000;
 constexpr size_t kMostLattices = 100;
 
-/// A set of world axes: x is 1, y is 2, z is 4.
+/// A set of the world's axes, where x is 1, y is 2 and z is 4.
 enum class Axes { none, x, y, xy, z, xz, yz, xyz };
 constexpr auto enum_names(Axes) {
     return std::array{"none", "x", "y", "xy", "z", "xz", "yz", "xyz"};
@@ -41,27 +41,28 @@ constexpr bool contains(Axes axes, int axis) {
 struct Body {
     std::string name;
     Shape shape;
-    std::optional<double> mass;     ///< [kg]; this or the density, unless the body is fixed
+    std::optional<double> mass;     ///< mass [kg]; a movable body needs either a mass or a density
     std::optional<double> density;  ///< [kg/m^3]
     bool fixed = false;             ///< never moves
-    bool driven = false;            ///< moves as driven by a task, whatever presses on it
-    Vec3 position = Vec3::Zero();   ///< position of B's origin at the start [m]
-    Vec3 rotation = Vec3::Zero();   ///< at the start, about the fixed axes x, then y, then z [rad]
+    bool driven = false;            ///< moves as a task drives it, whatever presses on it
+    Vec3 position = Vec3::Zero();   ///< initial position of B's origin [m]
+    Vec3 rotation = Vec3::Zero();   ///< initial rotation about fixed axes x, then y, then z [rad]
     double friction = 0.8;          ///< see pair_friction()
-    double torsion_radius = 0;  ///< a contact carries a moment about its normal up to friction x
-                                ///< radius x normal force; for a pair, the larger radius is used
-                                ///< [m]
+    /// A contact transmits a moment about its normal of up to friction x radius x normal force; for
+    /// a pair, the larger radius is used [m].
+    double torsion_radius = 0;
     Axes moves =
-        Axes::xyz;  ///< world axes along which it may move: z alone is a bead on an upright string
-    Axes turns = Axes::xyz;  ///< world axes about which it may turn: none, one, or xyz
+        Axes::xyz;  ///< world axes along which it may move; z alone is a bead on an upright string
+    Axes turns = Axes::xyz;  ///< world axes about which the body may turn: none, one, or xyz
     Surface surface;
-    std::string group;   ///< bodies of the same group do not touch each other; empty: no group
-    std::string colour;  ///< "#rrggbb"; empty: the mesh's own, or chosen by the view
+    /// Bodies of the same group do not touch each other; empty if the body belongs to no group.
+    std::string group;
+    std::string colour;  ///< "#rrggbb"; if empty, the mesh's own colour, or one chosen by the view
     Finish finish = Finish::satin;
-    std::optional<Picture> picture;  ///< replaces the colour
+    std::optional<Picture> picture;  ///< drawn in place of the colour
     std::optional<SeenMesh> seen;    ///< drawn in place of the shape
-    Place place;                     ///< in the scene file
-    bool weighed = false;  ///< whether the file has a key for mass or density, even a wrong one
+    Place place;                     ///< where the scene file describes the body
+    bool weighed = false;  ///< whether the file gives a mass or density, even an invalid one
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -109,24 +110,24 @@ struct Body {
     }
 
     Pose pose() const { return {rotation_xyz(rotation), position}; }
-    /// Whether a force can make it move.
+    /// Whether a force can move the body.
     bool moves_at_all() const {
         return !fixed && !driven && (moves != Axes::none || turns != Axes::none);
     }
 };
 
 /// A finger's proxy in the world. Gravity does not act on it. The proxy keeps its canonical
-/// orientation or, with a device that measures orientation, turns with the device.
+/// orientation or, if the device measures orientation, turns with the device.
 struct Finger {
     std::string name;
     Shape shape;
     double mass = 0.001;        ///< [kg]
     double friction = 0.8;      ///< see pair_friction()
-    double torsion_radius = 0;  ///< for a soft finger; see Body [m]
+    double torsion_radius = 0;  ///< for a soft finger; see Body::torsion_radius [m]
     Surface surface;
-    std::optional<ProxyKind> proxy;  ///< overrides the setting proxy.kind
+    std::optional<ProxyKind> proxy;  ///< used in place of the setting proxy.kind
     Vec3 rotation =
-        Vec3::Zero();  ///< canonical orientation, about the fixed axes x, then y, then z [rad]
+        Vec3::Zero();  ///< canonical orientation: about the fixed axes x, then y, then z [rad]
     Place place;
 
     template <class Visitor>
@@ -155,11 +156,11 @@ struct Finger {
     }
 };
 
-/// Surface properties of one pair of bodies or fingers, which override those from their own
-/// surfaces.
+/// Surface properties of one pair of bodies or fingers. They override the properties that follow
+/// from the two surfaces.
 struct Pair {
     std::vector<std::string> between;  ///< two names
-    std::optional<double> friction;    ///< none: the geometric mean
+    std::optional<double> friction;    ///< if unset, the geometric mean of the two coefficients
     Surface surface;
     Place place;
 
@@ -183,13 +184,14 @@ struct Scene {
     std::vector<Body> bodies;
     std::vector<Pair> pairs;
     std::vector<Joint> joints;
-    std::vector<Lattice> lattices;  ///< from a file; complete() makes bodies and joints of them
-    std::vector<Finger> fingers;  ///< empty in a file: thumb and index, two pads for a grip along x
-    std::string object;           ///< the body for summaries; empty: the first movable body
-    std::vector<Camera> cameras;  ///< cameras besides those that every scene has (view/camera.h)
+    std::vector<Lattice> lattices;  ///< as given in a file; complete() makes bodies of them
+    /// If a file gives none, these are thumb and index, two pads for a grip along x.
+    std::vector<Finger> fingers;
+    std::string object;           ///< the body for summaries; if empty, the first movable body
+    std::vector<Camera> cameras;  ///< cameras besides those of every scene (view/camera.h)
     Node settings;                ///< settings that this scene requires (frame::Settings)
     Node hand;                    ///< how the simulated hand tries out the scene (hand::HandSpec)
-    Place bodies_place;           ///< their line in the scene file
+    Place bodies_place;           ///< where the scene file lists the bodies
     Place object_place;
 
     template <class Visitor>
@@ -220,43 +222,44 @@ struct Scene {
         }
     }
 
-    /// Index of the named body, or -1.
+    /// Index of the body with this name, or -1 if there is none.
     int find(const std::string& name) const;
-    /// Index of the body for summaries, or -1 if no body can move.
+    /// Index of the body that summaries describe, or -1 if no body can move.
     int object_index() const;
 };
 
-/// Names of the fingers, in order.
+/// Names of the fingers, in scene order.
 std::vector<std::string> finger_names(const Scene& scene);
 
-/// The recorded joints, which tasks can use; complete() puts them first.
+/// The recorded joints, which tasks can use; complete() moves them to the start of the list.
 std::span<const Joint> recorded_joints(const Scene& scene);
 
-/// The file's entry for a pair of bodies or fingers, in either order, or null.
+/// The entry in the file for a pair of bodies or fingers, given in either order; null if there is
+/// none.
 const Pair* find_pair(const Scene& scene, const std::string& a, const std::string& b);
 
-/// Coefficient of friction between two bodies or fingers: the file's value for the pair, or else
-/// the geometric mean of their own coefficients.
+/// Coefficient of friction between two bodies or fingers: the value that the file gives for the
+/// pair or, otherwise, the geometric mean of their own coefficients.
 double pair_friction(const Scene& scene, const std::string& a, double friction_a,
                      const std::string& b, double friction_b);
 
-/// Mass of a body that is not fixed, from its mass or its density [kg].
+/// Mass of a body that is not fixed, computed from its mass or density [kg].
 double mass(const Body& body);
 
-/// Whether a body falls freely unless touched: no joint, rail or axis constrains it.
+/// Whether a body falls freely when nothing touches it, i.e. no joint, rail or axis constrains it.
 bool flies(const Scene& scene, const Body& body);
 
-/// Reads a scene file and its meshes, until `stop`. Reports all problems to `diagnostics` and
-/// returns everything that it could read.
+/// Reads a scene file and its meshes, until `stop` is requested. Reports all problems to
+/// `diagnostics`, and returns everything that could be read.
 Scene read_scene(const std::string& file, Diagnostics& diagnostics,
                  const std::stop_token& stop = {});
 
-/// Reports the error that the scene has no body with this name, with a suggestion.
+/// Reports as an error that the scene has no body with this name, and suggests a similar name.
 void report_unknown_body(const std::string& name, const Scene& scene, const Place& place,
                          const char* key, Diagnostics& diagnostics);
 
-/// Fills in the default fingers, loads meshes and pictures, and checks the scene as a whole. Paths
-/// of files are relative to `folder`.
+/// Fills in the default fingers, loads meshes and pictures, and checks the scene as a whole. File
+/// names are relative to `folder`.
 void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics,
               const std::stop_token& stop = {});
 

@@ -21,7 +21,8 @@ VolumeIntegrals moved(const VolumeIntegrals& in, const Pose& X) {
     return {in.volume, X * in.centre, R * in.inertia * R.transpose()};
 }
 
-/// Sum over parts, with each part's moments moved to the common centre (parallel axis theorem).
+/// Sum of the integrals over parts, with the moments of each part moved to the common centre
+/// (parallel axis theorem).
 VolumeIntegrals sum(const std::vector<VolumeIntegrals>& parts) {
     VolumeIntegrals out;
     for (const VolumeIntegrals& part : parts) {
@@ -100,7 +101,7 @@ VolumeIntegrals integrate(const Shape& shape) {
             return symmetric(volume, {across, across, volume * r * r / 2});
         }
         case ShapeKind::cone: {
-            // a cone's centre of volume is a quarter of its height above the base
+            // the centre of volume of a cone is a quarter of its height above the base
             const double volume = kPi * r * r * l / 3;
             const double across = 3.0 / 80 * volume * (4 * r * r + l * l);
             VolumeIntegrals out = symmetric(volume, {across, across, 0.3 * volume * r * r});
@@ -108,8 +109,8 @@ VolumeIntegrals integrate(const Shape& shape) {
             return out;
         }
         case ShapeKind::capsule: {
-            // the cylinder between the caps, and two half spheres, whose centres of volume are 3/8
-            // r beyond the cylinder's ends
+            // the cylinder between the caps, plus two half spheres, whose centres of volume are 3/8
+            // r beyond the ends of the cylinder
             const double cylinder = kPi * r * r * l;
             const double caps = 4.0 / 3.0 * kPi * r * r * r;
             const double across = cylinder * (3 * r * r + l * l) / 12 +

@@ -1,4 +1,4 @@
-// Describes a shape with a mass in the body's principal axes, as simulators require.
+// Describes a shape with a mass in the principal axes of the body, as simulators require.
 #pragma once
 
 #include "scene/shape.h"
@@ -8,12 +8,12 @@ namespace dihaptic::scene {
 /// Mass, centre of mass and principal inertia of a solid.
 struct Solid {
     double mass = 0;
-    Vec3 inertia = Vec3::Zero();  ///< principal moments [kg*m^2]
+    Vec3 inertia = Vec3::Zero();  ///< principal moments of inertia [kg*m^2]
     Pose X_BM;                    ///< centre of mass and principal axes in B
 };
 
-/// The solid of a shape with uniform density; inertia and pose keep their defaults if there is no
-/// mass or volume.
+/// The solid with this shape and uniform density. Inertia and pose keep their defaults if there is
+/// no mass or no volume.
 Solid solid_of(const Shape& shape, double mass);
 
 }  // namespace dihaptic::scene

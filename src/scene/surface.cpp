@@ -16,7 +16,7 @@ double larger(const std::optional<double>& a, const std::optional<double>& b) {
     return std::max(a.value_or(0), b.value_or(0));
 }
 
-/// Springs in series, each with a damper in parallel: f = k x + c dx/dt for slow motion.
+/// Combines springs in series, each with a damper in parallel: f = k x + c dx/dt for slow motion.
 void in_series(const Surface& a, const Surface& b, PairSurface& out) {
     double give = 0;  // 1 / k
     double lag = 0;   // c / k^2
@@ -63,7 +63,7 @@ PairSurface pair_surface(const Scene& scene, const SurfaceOf& a, const SurfaceOf
         if (own.dynamic_friction) {
             out.dynamic_friction = *own.dynamic_friction;
         } else if (pair->friction) {
-            out.dynamic_friction = out.friction;  // the pair has only one coefficient
+            out.dynamic_friction = out.friction;  // the pair gives only one coefficient
         }
     }
     out.dynamic_friction = std::min(out.dynamic_friction, out.friction);

@@ -1,4 +1,4 @@
-// Describes how a touched surface slides, yields and bounces.
+// Describes how a surface slides, yields and bounces when it is touched.
 #pragma once
 
 #include <limits>
@@ -10,21 +10,21 @@
 
 namespace dihaptic::scene {
 
-/// Limits of a surface: softer ones let bodies pass through each other, and harder ones are rigid.
+/// Limits for a surface: bodies pass through softer ones, and harder ones count as rigid.
 constexpr double kSoftest = 50;   // [N/m]
 constexpr double kHardest = 1e6;  // [N/m]
 constexpr double kMostFriction = 100;
 
-/// The surface of a body, a finger or a pair. A body or finger lacks the properties that are left
-/// out; a pair derives them from its two surfaces.
+/// The surface of a body, a finger or a pair. Properties that are unset do not exist for a body or
+/// finger; for a pair, they are derived from its two surfaces.
 struct Surface {
-    std::optional<double> stiffness;         ///< stiffness of a pressed face [N/m]; none: rigid
-    std::optional<double> damping;           ///< parallel to it [N*s/m]
-    std::optional<double> restitution;       ///< coefficient in Newton's law, 0 to 1
-    std::optional<double> dynamic_friction;  ///< coefficient during sliding; none: the static one
+    std::optional<double> stiffness;         ///< stiffness of a pressed face [N/m]; rigid if unset
+    std::optional<double> damping;           ///< damping in parallel to the stiffness [N*s/m]
+    std::optional<double> restitution;       ///< coefficient of restitution in Newton's law, 0 to 1
+    std::optional<double> dynamic_friction;  ///< coefficient while sliding; static one if unset
     std::optional<double> stribeck_speed;    ///< see friction_at() [m/s]
     std::optional<double> film;              ///< viscous drag of a sliding face [N*s/m]
-    std::optional<Texture> texture;          ///< for bodies, not for fingers and pairs
+    std::optional<Texture> texture;          ///< allowed for bodies, but not for fingers and pairs
     Place place;
 
     bool operator==(const Surface& other) const {
@@ -70,7 +70,7 @@ struct Surface {
 /// The combined properties of two surfaces that touch each other.
 struct PairSurface {
     double friction = 0;          ///< static coefficient
-    double dynamic_friction = 0;  ///< at most the static one
+    double dynamic_friction = 0;  ///< at most equal to the static coefficient
     double stribeck_speed = 0.01;
     double film = 0;
     double restitution = 0;
@@ -80,14 +80,15 @@ struct PairSurface {
     bool is_soft() const { return stiffness < std::numeric_limits<double>::infinity(); }
     bool slides_like_coulomb() const { return dynamic_friction == friction && film == 0; }
 
-    /// Coefficient of friction at a sliding speed [m/s] under a normal force [N]: Stribeck's
-    /// curve, from the static to the dynamic coefficient, and the film's drag.
+    /// Coefficient of friction at a sliding speed [m/s] and a normal force [N]. It is the sum of
+    /// Stribeck's curve, which falls from the static to the dynamic coefficient, and the drag of
+    /// the film.
     ///
     ///     mu_d + (mu_s - mu_d) exp(-(v / v_s)^2) + film v / N
     double friction_at(double speed, double normal_force) const noexcept;
 };
 
-/// One side of a pair.
+/// The surface of one of the two bodies or fingers in a pair.
 struct SurfaceOf {
     const std::string& name;
     double friction = 0;
@@ -96,12 +97,12 @@ struct SurfaceOf {
 
 struct Scene;
 
-/// The combined surface of two bodies or fingers: the file's values for the pair or, otherwise,
-/// the combination of their own surfaces.
+/// The combined surface of two bodies or fingers: the values that the file gives for the pair or,
+/// otherwise, a combination of their own surfaces.
 PairSurface pair_surface(const Scene& scene, const SurfaceOf& a, const SurfaceOf& b);
 
-/// Checks that the keys of a surface are compatible; `friction` is its static coefficient, if
-/// known.
+/// Checks that the keys of a surface are compatible with each other; `friction` is the static
+/// coefficient of friction, if it is known.
 void check(const Surface& surface, std::optional<double> friction, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::scene

@@ -9,7 +9,7 @@
 namespace dihaptic::scene {
 namespace {
 
-/// The state of a relief at a point: r from 0 to 1, and its slope per metre.
+/// The state of a relief at a point: its height r from 0 to 1, and the slope of r per metre.
 struct Ridge {
     double r = 0;
     Vec3 rise = Vec3::Zero();
@@ -34,7 +34,7 @@ Ridge grid_at(double k, const Vec3& n_B, const Vec3& p_B) {
 Ridge picture_at(const ReliefPicture& picture, double pixel, const Vec3& along, const Vec3& n_B,
                  const Vec3& p_B) {
     Vec3 right = along - n_B.dot(along) * n_B;
-    // on a face whose normal points to the picture's right, the direction is arbitrary
+    // on a face whose normal points to the right of the picture, the direction is arbitrary
     right = right.norm() > 0.1 ? right.normalized() : n_B.unitOrthogonal();
     const Vec3 up = n_B.cross(right);
     const ReliefPicture::Value value = picture.at(right.dot(p_B) / pixel, up.dot(p_B) / pixel);

@@ -6,9 +6,9 @@ namespace dihaptic::servo {
 namespace {
 
 constexpr Time kWindow = std::chrono::seconds(1);
-constexpr double kEase = 0.1;     // time constant of the low-pass filter [s]
+constexpr double kEase = 0.1;     // time constant of the low-pass filter for sustained() [s]
 constexpr double kExpect = 0.02;  // time constant with which expected() falls after a late tick [s]
-constexpr double kWell = 1e-3;    // lateness below this fraction of a period counts as in time
+constexpr double kWell = 1e-3;    // lateness below this fraction of a period does not count
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void Lateness::restart() noexcept {
 
 void Lateness::tick(Time now, Time elapsed) noexcept {
     const bool late = 2 * elapsed > 3 * period_;
-    // the caller handles a clock that moved back
+    // a clock that moved backwards is handled by the caller
     const double t = std::max(0.0, seconds(elapsed));
     while (count_ > 0 && (now - late_[first_].at >= kWindow || count_ == late_.size())) {
         first_ = (first_ + 1) % late_.size();
@@ -54,7 +54,7 @@ double Lateness::mean() const noexcept {
         longest = std::max(longest, t);
     }
     const double rest = seconds(kWindow) - longest;
-    // a single late interval is forgiven, even if rounding leaves a residue
+    // a single late interval is forgiven, even if rounding errors leave a small remainder
     if (count_ < 2 || rest <= 0) return 0;
     return std::max(0.0, sum - longest * (longest - h)) / rest;
 }

@@ -1,13 +1,13 @@
-// Measures the lateness of the loop's ticks from the ticks' times alone. These are recorded, so a
-// replay gives the same value.
+// Measures the lateness of the loop's ticks from nothing but the ticks' times. Since these times
+// are recorded, a replay gives the same lateness.
 //
 //     L = sum T_i (T_i - h) / sum T_i
 //
-// over the last second, where h is the period and T_i the time from each tick to the next; an
-// interval of up to 3 h / 2 counts as in time. L determines the stiffness allowed for the loop
-// (haptics/late_loop.h). The longest interval is left out, because a single pause is either a fault
-// (if too long) or forgiven. L reaches the coupling through a low-pass filter, so that there is no
-// abrupt change under the hand.
+// where the sums are over the last second, h is the period and T_i are the times between
+// consecutive ticks; intervals of up to 3 h / 2 count as on time. L determines the coupling
+// stiffness allowed for the loop (haptics/late_loop.h). The longest interval is left out, because a
+// single pause is either a fault (if it is too long) or forgiven. L is low-pass filtered before it
+// changes the coupling, so that the hand feels no abrupt change.
 #pragma once
 
 #include <vector>
@@ -20,15 +20,16 @@ class Lateness {
   public:
     explicit Lateness(Time period);
 
-    /// Notes a tick at `now`, `elapsed` after the one before. Allocates nothing.
+    /// Notes a tick at time `now`, which came `elapsed` after the previous tick. Does not allocate
+    /// memory.
     void tick(Time now, Time elapsed) noexcept;
-    /// Forgets all lateness.
+    /// Forgets the lateness of all earlier ticks.
     void restart() noexcept;
 
-    /// L after the low-pass filter; exactly 0 when the loop keeps time [s].
+    /// L after the low-pass filter [s]; exactly 0 if the ticks are on time.
     double sustained() const noexcept { return sustained_; }
-    /// Expected lateness of the next tick: that of this tick, or of one shortly before
-    /// it. Exactly 0 when the loop keeps time [s].
+    /// Expected lateness of the next tick: the lateness of this tick or of a tick shortly before it
+    /// [s]. Exactly 0 if the ticks are on time.
     double expected() const noexcept { return expected_; }
 
   private:
@@ -39,7 +40,7 @@ class Lateness {
         double elapsed = 0;  // [s]
     };
     Time period_;
-    std::vector<Late> late_;  // late intervals of the last second, a ring
+    std::vector<Late> late_;  // ring of the late intervals in the last second
     size_t first_ = 0;
     size_t count_ = 0;
     double sustained_ = 0;

@@ -22,7 +22,7 @@ namespace {
 constexpr const char* kAwake = "/dev/cpu_dma_latency";
 
 int ask_priority(int priority) {
-    // the kernel may wake ordinary threads 50 us late to save power; this helps if FIFO is refused
+    // to save power, the kernel may wake ordinary threads 50 us late; matters if FIFO is refused
     prctl(PR_SET_TIMERSLACK, 1UL, 0, 0, 0);
     sched_param wanted{};
     wanted.sched_priority = priority;
@@ -30,8 +30,8 @@ int ask_priority(int priority) {
 }
 
 int ask_memory() {
-    // Under a limit, lock only the memory in use: with MCL_FUTURE, memory requested by other
-    // threads later would be refused altogether.
+    // If locked memory is limited, lock only the memory in use: with MCL_FUTURE, later memory
+    // requests by other threads would fail altogether.
     rlimit limit{};
     const bool free = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
     return mlockall(free ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) == 0 ? 0 : errno;
@@ -39,14 +39,14 @@ int ask_memory() {
 
 int ask_awake(Descriptor& file) {
     file = Descriptor(open(kAwake, O_WRONLY | O_CLOEXEC));
-    // the file is absent if the kernel does not manage sleep, as in a container or virtual
-    // machine
+    // the file is absent if the kernel does not manage sleep states, as in containers and virtual
+    // machines
     if (!file) return errno == ENOENT ? 0 : errno;
     const int32_t most_us = 0;
     return write(file.get(), &most_us, sizeof most_us) == sizeof most_us ? 0 : errno;
 }
 
-/// Room on this thread's stack [bytes]: `ulimit -s` may have made it small.
+/// Free space on this thread's stack [bytes]; a small limit may have been set with `ulimit -s`.
 size_t room_on_stack() {
     pthread_attr_t thread;
     if (pthread_getattr_np(pthread_self(), &thread) != 0) return 0;
@@ -58,7 +58,8 @@ size_t room_on_stack() {
     return static_cast<size_t>(&here - static_cast<char*>(lowest));
 }
 
-/// Touches the stack in advance: a page first touched in a tick costs that tick a page fault.
+/// Touches the stack in advance, because the first access to a page during a tick would cause a
+/// page fault.
 void touch_stack() {
     const size_t size = std::min<size_t>(262144, room_on_stack() / 2);
     auto* const stack = static_cast<volatile char*>(alloca(size));
@@ -71,8 +72,8 @@ RealTime::RealTime(int priority) {
     refusals_.memory = ask_memory();
     refusals_.awake = ask_awake(awake_);
     touch_stack();
-    // requested last, because the steps above take milliseconds, during which this thread would
-    // keep other programs waiting
+    // priority is requested last: the steps above take milliseconds, during which this thread would
+    // otherwise keep other programs waiting
     refusals_.priority = ask_priority(priority);
 }
 

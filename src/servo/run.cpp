@@ -18,10 +18,12 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
-/// Before their first tick, devices that pace start a thread or a scheduler of their own. No force
-/// is applied then, so the watchdog waits longer than any of them needs.
+/// Time that devices which call the ticks may need before their first tick, to start a thread or
+/// scheduler of their own. No force is applied during this time, so the watchdog can wait longer
+/// than any device needs.
 constexpr Time kDevicesBegin = std::chrono::seconds(4);
-/// After their last tick, in which force was switched off, they end that thread or scheduler.
+/// Time that these devices may need after their last tick, in which force was switched off, to end
+/// that thread or scheduler.
 constexpr Time kDevicesEnd = std::chrono::seconds(2);
 
 double elapsed(Steady::time_point since) {
@@ -29,7 +31,7 @@ double elapsed(Steady::time_point since) {
 }
 
 void sleep_until(Steady::time_point deadline) {
-    // steady_clock is CLOCK_MONOTONIC here; an absolute sleep does not drift
+    // steady_clock is CLOCK_MONOTONIC here; sleeping until an absolute time avoids drift
     const auto since_epoch = deadline.time_since_epoch();
     timespec at{};
     at.tv_sec = std::chrono::duration_cast<std::chrono::seconds>(since_epoch).count();
@@ -91,7 +93,7 @@ Time run_virtual(Servo& servo, const frame::Director& director, const frame::Fra
 
 namespace {
 
-/// A run on the real clock, in the thread that calls the ticks.
+/// A run on the real clock. Belongs to the thread that calls the ticks.
 struct RealLoop {
     Servo& servo;
     const frame::Director& director;
@@ -99,12 +101,13 @@ struct RealLoop {
     const std::atomic<bool>& stop;
     Timing& timing;
     Watchdog& watchdog;
-    Steady::time_point start;  ///< when time was, or would have been, zero
+    Steady::time_point start;  ///< when session time was zero or (in a resumed run) would have been
     double last_tick = kUnmeasured;
     bool overrun = false;
     Suspension suspension{Suspension::read()};
 
-    /// Does the tick with time `now`, which was due at `due`. Returns whether another one follows.
+    /// Does the tick for time `now`, which was due at time `due`. Returns whether another tick
+    /// follows.
     bool tick(Time due, Time now, Steady::time_point begin) noexcept {
         const double lateness = seconds(begin - (start + due));
         servo.note_timing(lateness, last_tick, overrun);
@@ -116,7 +119,7 @@ struct RealLoop {
                 std::max({timing.longest_pause, seconds(now - timing.reached), lateness});
         }
         const auto end = Steady::now();
-        // after the last tick force is off, and devices may need some time to end
+        // after the last tick, force is off, and the devices may need some time to shut down
         watchdog.end_tick(servo.stopped() ? end + kDevicesEnd : end);
         last_tick = seconds(end - begin);
         timing.ticks.add(last_tick);
@@ -125,8 +128,8 @@ struct RealLoop {
         return !servo.stopped();
     }
 
-    /// Adds the duration of a suspension of the machine, in whole periods, to the run's time,
-    /// because the machine's clock stands still meanwhile.
+    /// If the machine was suspended, adds the duration of the suspension, in whole periods, to the
+    /// run's time, because the monotonic clock stands still during a suspension.
     Time add_suspension() noexcept {
         const Time asleep = suspension.since(Suspension::read());
         const Time added = (asleep / servo.period()) * servo.period();
@@ -146,9 +149,9 @@ struct RealLoop {
         timing.overruns += pace.overruns;
     }
 
-    /// Time is measured here, because the devices' period is their own, although close to the
-    /// servo's. An overrun is a tick that took longer than a period, or one that the devices called
-    /// more than half a period late: either way the last force was held longer than intended.
+    /// Measures time here, because the devices' period is close to the servo's but not equal to it.
+    /// A tick is an overrun if it took longer than a period, or if the devices called it more than
+    /// half a period late: in both cases the last force was held longer than intended.
     void run_by_devices(Time first, Time last) {
         Time due = first;
         bool begun = false;
@@ -177,13 +180,12 @@ void run_real(Servo& servo, const frame::Director& director, const frame::FrameS
         const RealTime real_time(servo.settings().real_time_priority);
         timing.refusals = real_time.refusals();
         auto start = Steady::now();
-        // one tick longer than the servo allows, so that if the watchdog stops the devices, the
-        // next tick is late by the servo's own clock too, and this is recorded. The first tick is
-        // an exception.
+        // one tick longer than the servo allows: if the watchdog stops the devices, the servo then
+        // also finds (and records) that the next tick is late, except when this is the first tick
         const Time pause = from_seconds(servo.settings().safety.max_pause) + servo.period();
-        // no person's hand holds simulated devices, so only a stuck loop matters
+        // if all devices are simulated, nobody holds them, so only a stuck loop matters
         const Time limit = servo.real() ? pause : Watchdog::kStuck;
-        std::optional<Timing::Stall> stall;  // owned by the watchdog's thread until that has ended
+        std::optional<Timing::Stall> stall;  // owned by the watchdog's thread until it has ended
         auto watchdog = std::make_unique<Watchdog>(
             limit,
             [&] {
@@ -193,9 +195,9 @@ void run_real(Servo& servo, const frame::Director& director, const frame::FrameS
             [&] {
                 if (stuck) stuck(*stall);
             });
-        // only now, because starting a thread may take longer than a tick
+        // taken only now, because starting the watchdog's thread may take longer than a tick
         start = Steady::now() + servo.period() - first;
-        // devices that pace may need some time to start
+        // devices that call the ticks may need some time to start
         const bool paced = servo.devices().paces();
         watchdog->end_tick(Steady::now() + (paced ? kDevicesBegin : Time(0)));
         RealLoop loop{servo, director, sink, stop, timing, *watchdog, start};

@@ -1,5 +1,5 @@
-// Runs call the tick: on the virtual clock, as fast as the machine allows, or in a thread that
-// keeps real time.
+// These functions run the ticks of a servo: either on the virtual clock, as fast as the machine
+// allows, or in real time, in a separate thread.
 #pragma once
 
 #include <atomic>
@@ -11,8 +11,8 @@
 
 namespace dihaptic::servo {
 
-/// Durations, one for each tick. To be reserved before a real-time run; once full, it drops further
-/// values.
+/// Durations, one per tick. Memory must be reserved before a real-time run; once it is full,
+/// further durations are dropped.
 class TickTimes {
   public:
     void reserve(size_t ticks) { us_.reserve(ticks); }
@@ -21,27 +21,29 @@ class TickTimes {
     }
     size_t count() const { return us_.size(); }
     std::span<const float> us() const { return us_; }
-    /// The quantile at `share`, e.g. 0.5 for the median [us]; NaN without ticks.
+    /// The quantile at `share` [us], e.g. 0.5 for the median; NaN if there are no ticks.
     double quantile(double share) const;
 
   private:
     std::vector<float> us_;
 };
 
-/// The punctuality of a run. On the virtual clock, which is never late, only `ticks` is filled in.
+/// Describes how punctual a run was. On the virtual clock, on which ticks are never late, only
+/// `ticks` is filled in.
 struct Timing {
     TickTimes ticks;
     TickTimes lateness;  ///< lateness of each tick's wake-up
     Time reached{0};     ///< time of the last tick
     int64_t overruns = 0;
-    /// The watchdog's finding when ticks no longer ended.
+    /// What the watchdog found and did when no tick ended any more.
     struct Stall {
         Time at{0};            ///< since activation
-        Time pause{0};         ///< since the end of the last tick
-        bool stopped = false;  ///< whether the devices could be stopped; not all devices can
+        Time pause{0};         ///< time since the end of the last tick
+        bool stopped = false;  ///< whether the devices could be stopped; some devices cannot
     };
     std::optional<Stall> stall;
-    /// Number of ticks later than allowed while all devices are simulated; only reported.
+    /// Number of ticks that were later than allowed while all devices were simulated. Such ticks
+    /// are only reported.
     int64_t pauses = 0;
     double longest_pause = 0;  ///< [s]
     RealTime::Refusals refusals;
@@ -52,27 +54,28 @@ struct Timing {
     }
 };
 
-/// Describes the lateness of the wake-ups of a real-time run; "" without wake-ups.
+/// Describes how late the ticks of a real-time run woke up; "" if there are none.
 std::string describe(const Timing& timing);
 
-/// Describes the pauses in a sentence; "" without pauses.
+/// Describes the pauses in a sentence; "" if there were none.
 std::string describe_pauses(const Timing& timing);
 
-/// Describes the watchdog's action in a sentence.
+/// Describes in a sentence what the watchdog did.
 std::string describe(const Timing::Stall& stall);
 
-/// Runs ticks on the virtual clock until the director stops, `stop` becomes true, or time `most`
-/// has passed. Devices that pace call the ticks, one per period of virtual time. Returns the time
-/// reached.
+/// Runs ticks on the virtual clock until the director stops, `stop` becomes true, or session time
+/// `most` is reached. Devices that pace the run call the ticks themselves, one per period of
+/// virtual time. Returns the time reached.
 Time run_virtual(Servo& servo, const frame::Director& director, const frame::FrameSink& sink,
                  Time most, const std::atomic<bool>& stop, TickTimes* times = nullptr);
 
-/// Runs the ticks from `first` to `last` in real time, in a thread of its own with the permissions
-/// that RealTime obtained. A tick runs at each deadline of Pace, on the monotonic clock plus any
-/// time for which the machine was suspended; devices that pace call the ticks instead. A Watchdog
-/// stops real devices when no tick has ended for longer than `max_pause`; if the loop then
-/// continues, the next tick detects that it is late. If it never does, `stuck` is called from the
-/// watchdog's thread: this function can no longer return, and the program should end.
+/// Runs the ticks from time `first` to time `last` in real time, in a separate thread with the
+/// permissions that RealTime obtained. A tick runs at each deadline of Pace, which uses the
+/// monotonic clock plus any time for which the machine was suspended. Devices that pace the run
+/// call the ticks themselves instead. If no tick has ended for longer than `max_pause`, a Watchdog
+/// stops real devices. If the loop then continues, the next tick finds that it is late. If the loop
+/// never continues, `stuck` is called from the watchdog's thread: this function can no longer
+/// return, and the program should end.
 void run_real(Servo& servo, const frame::Director& director, const frame::FrameSink& sink,
               Time first, Time last, const std::atomic<bool>& stop, Timing& timing,
               const std::function<void(const Timing::Stall&)>& stuck = {});

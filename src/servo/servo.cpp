@@ -9,9 +9,9 @@
 namespace dihaptic::servo {
 namespace {
 
-constexpr double kElsewhere = 5e-3;  // a handle that moved this far in a pause resets its proxy [m]
+constexpr double kElsewhere = 5e-3;  // a proxy is reset if its handle moves this far in a pause [m]
 
-/// The fault reported by a device.
+/// Converts a device's reading into the fault that it reports.
 FaultKind reported_by(const devices::Reading& reading) {
     FaultKind reported = FaultKind::none;
     for_each_status(reading.status, [&](Status bit) {
@@ -20,8 +20,8 @@ FaultKind reported_by(const devices::Reading& reading) {
     return reported;
 }
 
-/// The box in which a hand is kept: the wall or, without one, the device's workspace if
-/// stated.
+/// Returns the box in which a hand is kept: the wall or, if there is no wall, the device's
+/// workspace, if stated.
 std::optional<haptics::WorkspaceBox> box_of(const frame::DeviceInfo& info, const Pose& X_0D,
                                             const std::optional<Eigen::AlignedBox3d>& wall) {
     if (wall) return haptics::WorkspaceBox{{Quat::Identity(), wall->center()}, wall->sizes()};
@@ -109,7 +109,7 @@ Servo::~Servo() {
     deactivate();
 }
 
-/// An "apart" point has no means of turning a body.
+/// A point proxy with friction of the kind "apart" cannot turn a body.
 bool Servo::turns_with_handle(scene::ProxyKind kind) const noexcept {
     return kind == scene::ProxyKind::rigid ||
            settings_.proxy.friction == frame::PointFriction::together;
@@ -179,14 +179,14 @@ void Servo::rest() noexcept {
 }
 
 void Servo::resume() {
-    // if the watchdog stopped the devices in the last tick before a pause, they are still stopped
+    // devices that the watchdog stopped in the last tick before a pause are still stopped
     const bool were_stopped = stopped_from_outside_.exchange(false);
     if (faults_.tripped() || were_stopped) {
         devices_->deactivate();
         active_ = false;
         devices_->activate();
         active_ = true;
-        // positions computed from a value that is not a number are lost
+        // positions computed from a value that was not a number are lost
         const haptics::FaultKind kind = faults_.fault().kind;
         anew_ = world_.diverged() || kind == haptics::FaultKind::not_finite;
         if (world_.diverged()) world_.mend();
@@ -272,7 +272,7 @@ void Servo::measure(Time now) noexcept {
     devices_->read(now, readings_);
     const double elapsed = frame_.sequence < 0 ? 0 : seconds(now - frame_.time);
     judge_lateness(now, elapsed);
-    // a device has one position per period, however close together two ticks come
+    // a device reports one position per period, even if two ticks come closer together
     const double moved_for = elapsed > 0 ? std::max(elapsed, settings_.tick()) : 0;
     if ((real_ && lateness_fault_) || faults_.tripped()) turn_.stop();
     turn_.advance(elapsed);
@@ -280,7 +280,7 @@ void Servo::measure(Time now) noexcept {
         frame::Handle read{X_0D_[i] * readings_[i].p_DH, X_0D_[i].R * readings_[i].v_DH};
         const bool orientation = devices_->info(static_cast<int>(i)).measures_orientation;
         if (orientation) {
-            // the same turn, expressed in the world's axes
+            // the same rotation, expressed in the world's axes
             const Quat& R_0D = X_0D_[i].R;
             read.R_WH = R_0D * readings_[i].R_DH * R_0D.conjugate();
             read.w_WH = R_0D * readings_[i].w_DH;
@@ -295,13 +295,13 @@ void Servo::measure(Time now) noexcept {
         device_faults_[i] = fault.kind;
         faults_.trip(fault);
         handles_[i] = turn_.turned(unturned_[i], orientation);
-        // a hand that moved during a pause must not hurl the objects in its way
+        // a hand that moved during a pause must not fling away the objects in its path
         const bool elsewhere =
             resumed_ && (handles_[i].p_WH - frame_.fingers[i].p_WH).norm() > kElsewhere;
         if (frame_.sequence < 0 || elsewhere || anew_) fingers_[i].place(world_, handles_[i]);
     }
     anew_ = false;
-    // after the devices' reports, which are more informative than the pauses that they cause
+    // judged after the devices' reports, which say more than the pauses that they cause
     if (real_) faults_.trip(lateness_fault_);
 }
 
@@ -319,7 +319,7 @@ void Servo::turn_workspaces(double rate) noexcept {
 void Servo::make_forces(Time now) noexcept {
     bool asked = false;
     const bool stepped = steps_now();
-    // a simulated hand that shakes because of a late loop harms nobody
+    // if a late loop makes a simulated hand shake, nobody is harmed
     const bool waits = !real_ && late_.sustained() > 0;
     const auto judge_shaking = [&](haptics::FaultKind kind, size_t i, double by) {
         if (by > 0 && !waits) faults_.trip({kind, static_cast<int>(i), now, by});
@@ -329,7 +329,7 @@ void Servo::make_forces(Time now) noexcept {
         const Wrench last_0 = force.sent_0;
         force = {};
         force.last_0 = last_0;
-        if (world_.diverged()) continue;  // the world no longer determines a force
+        if (world_.diverged()) continue;  // a diverged world no longer determines a force
         force.asked_W.force = fingers_[i].force(world_, handles_[i], settings_.tick());
         force.asked_W.torque = fingers_[i].torque();
         const Pose& X_WP = world_.state(fingers_[i].proxy()).X_WB;
@@ -342,7 +342,7 @@ void Servo::make_forces(Time now) noexcept {
         asked = asked || !force.felt_0.is_zero();
     }
     const bool held = switch_held();
-    // a device that drops its force leaves half a grasp, so all forces stay off until they can
+    // if a device drops its force, only half a grasp is left, so all forces stay off until they can
     // return gently
     const bool allowed = held && !any_force_dropped(readings_) && !commands_.rest;
     const double rising = soft_start_.share(allowed, asked, settings_.tick());
@@ -356,7 +356,7 @@ void Servo::make_forces(Time now) noexcept {
         if (force.status & kNotFinite)
             faults_.trip({haptics::FaultKind::not_finite, static_cast<int>(i), now});
     }
-    // one finger's fault applies to all: half a grasp would throw the hand aside
+    // a fault of one finger switches all fingers off: half a grasp would throw the hand aside
     for (size_t i = 0; i < fingers_.size(); ++i) {
         if (faults_.tripped()) {
             forces_[i].sent_0 = {};
@@ -370,7 +370,7 @@ void Servo::make_forces(Time now) noexcept {
 
 namespace {
 
-/// Calls `act` for each object that had orders in the last tick but has none now.
+/// Calls `act` for each object that received orders in the last tick but receives none now.
 template <class Order, class Act>
 void for_each_lapsed(const std::vector<Order>& before, const std::vector<Order>& now,
                      int32_t Order::*of, const Act& act) {
@@ -437,7 +437,7 @@ void Servo::add_loads(size_t finger, Wrench& felt_W) const noexcept {
 
 bool Servo::switch_held() const noexcept {
     if (settings_.safety.dead_man_finger.empty()) return true;
-    if (dead_man_ < 0) return false;  // a missing switch counts as not held
+    if (dead_man_ < 0) return false;  // without a switch, it counts as not held
     const devices::Reading& reading = readings_[static_cast<size_t>(dead_man_)];
     return (reading.buttons >> settings_.safety.dead_man_button & 1u) != 0;
 }

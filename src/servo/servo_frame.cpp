@@ -1,4 +1,4 @@
-// Makes the Frame, the record of a tick.
+// Fills the Frame, which is the record of a tick.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -66,14 +66,14 @@ void note_body(const dynamics::BodyState& state, uint16_t body, frame::Frame& fr
     out.v_WB = state.v_WB;
     out.w_WB = state.w_WB;
     out.awake = state.awake ? 1 : 0;
-    // sums squares, because a value that would overflow in the next computation has already
+    // squared norms are used because a value that would overflow in later computations has already
     // diverged
     const double size = out.X_WB.p.squaredNorm() + out.v_WB.squaredNorm() + out.w_WB.squaredNorm();
     if (!std::isfinite(size)) frame.status |= kNotFinite;
     frame.changed.push_back(body);
 }
 
-/// Notes the bodies that were stepped: bodies that stay asleep have not changed.
+/// Lists the bodies that were stepped; bodies that stay asleep have not changed.
 void note_bodies(const dynamics::World& world, frame::Frame& frame) noexcept {
     const auto states = world.states();
     const size_t count = frame.bodies.size();
@@ -121,7 +121,7 @@ void Servo::make_frame(Time now, const frame::Commands& commands,
     if (faults_.fault().time == now) frame_.status |= fault_status(faults_.fault().kind);
     if (!real_) frame_.status |= fault_status(lateness_fault_.kind);
     if (in_force_.stiffness < commands.knobs.stiffness) frame_.status |= kSoftened;
-    static_cast<frame::Knobs&>(frame_) = commands.knobs;  // except those that are not in effect yet
+    static_cast<frame::Knobs&>(frame_) = commands.knobs;  // corrected below where necessary
     frame_.set_coupling(in_force_);
     note_solver(world_, frame_);
     note_balance(world_.balance(), frame_);
@@ -164,7 +164,7 @@ void Servo::merge_contacts() noexcept {
 }
 
 void Servo::merge_contacts(std::span<const contact::Contact> contacts) noexcept {
-    // the contact points of a pair are adjacent
+    // contact points of the same pair are adjacent
     double pressed = 0;
     for (const contact::Contact& c : contacts) {
         const bool same = !frame_.contacts.empty() && frame_.contacts.back().a == c.a.value &&
@@ -181,7 +181,7 @@ void Servo::merge_contacts(std::span<const contact::Contact> contacts) noexcept 
             pressed = 0;
         }
         frame::ContactFrame& out = frame_.contacts.back();
-        // running means, weighted by pressure; the small constant gives unloaded contacts some
+        // running means, weighted by contact force; the small constant gives unloaded contacts some
         // weight
         const double weight = c.normal_force + 1e-12;
         pressed += weight;

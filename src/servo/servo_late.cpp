@@ -1,5 +1,5 @@
-// Handles late ticks: faults, softer couplings, and a bound on the rise of forces.
-// haptics/late_loop.h has the equations.
+// Handles late ticks: reports faults, softens the couplings, and limits how fast forces may rise.
+// The equations are in haptics/late_loop.h.
 #include <algorithm>
 
 #include "haptics/late_loop.h"
@@ -7,16 +7,16 @@
 
 namespace dihaptic::servo {
 
-/// With simulated devices only, lateness is not a fault but is still reported.
+/// If all devices are simulated, lateness is not a fault, but it is still reported.
 void Servo::judge_lateness(Time now, double elapsed) noexcept {
     late_.tick(now, from_seconds(elapsed));
     elapsed_ = elapsed;
     lateness_fault_ = {};
-    // lateness_ is NaN unless noted by the caller; std::max() then returns its first argument
+    // lateness_ is NaN unless the caller set it; std::max() then returns its first argument
     const double overdue = std::max(elapsed - settings_.tick(), lateness_);
     const double pause = settings_.safety.max_pause;
     const std::optional<double>& most = settings_.safety.max_late;
-    // a clock that moves back does not reveal how long the last force was held
+    // if the clock moved backwards, it is unknown how long the last force was held
     if (elapsed > pause || elapsed < 0) {
         lateness_fault_ = {haptics::FaultKind::late, -1, now, elapsed, pause};
     } else if (frame_.sequence >= 0 && most && overdue > *most) {
@@ -35,10 +35,11 @@ void Servo::retune() noexcept {
     for (haptics::Finger& finger : fingers_) finger.retune(in_force_);
 }
 
-/// Bounds the rise of force in a tick that may be late. Lateness that has just started has not
-/// yet softened the couplings, and never softens the wall or force fields. From its value in the
-/// last tick, force may rise only as much as that of a spring with the stiffness allowed for the
-/// loop or with the coupling's, whichever is lower, and by the creep, which lets it return.
+/// Limits how much the force may rise in a tick that may be late. Lateness that has just begun has
+/// not yet softened the couplings, and lateness never softens the wall or the force fields.
+/// Starting from its value in the last tick, the force may rise only as much as that of a spring
+/// whose stiffness is the one allowed for the loop or the coupling's own, whichever is lower, plus
+/// a slow creep that lets the force recover.
 void Servo::bound_rise(size_t finger, double share) noexcept {
     if (!real_ || late_.expected() <= 0 || share <= 0) return;
     Force& force = forces_[finger];

@@ -1,6 +1,6 @@
-// Suspension measures the duration of a suspension of the machine. The monotonic clock stands still
-// meanwhile; by this clock, a tick after hours of sleep would be in time, although the hands have
-// long let go.
+// Suspension measures for how long the machine was suspended. The monotonic clock stands still
+// during a suspension, so that a tick after hours of sleep would seem to be on time, although the
+// hands have long let go.
 #pragma once
 
 #include "base/clock.h"
@@ -9,8 +9,8 @@ namespace dihaptic::servo {
 
 class Suspension {
   public:
-    /// A reading of the clock that runs during a suspension (boot), between two readings of the
-    /// clock that does not.
+    /// A reading of the boot clock, which keeps running during a suspension, taken between two
+    /// readings of the monotonic clock, which does not.
     struct Clocks {
         Time before{0};
         Time boot{0};
@@ -20,8 +20,9 @@ class Suspension {
 
     explicit Suspension(const Clocks& clocks) : offset_(clocks.boot - clocks.before) {}
 
-    /// Time suspended since the last call, or since construction; 0 if none. A thread
-    /// that has to wait between two readings does not mistake the wait for a suspension.
+    /// Time for which the machine was suspended since the last call or, in the first call, since
+    /// construction; 0 if it was not suspended. If the thread has to wait between two clock
+    /// readings, the wait is not mistaken for a suspension.
     Time since(const Clocks& clocks) noexcept {
         const Time least = clocks.boot - clocks.after - offset_;
         if (least < kLeast) return Time(0);
@@ -31,7 +32,7 @@ class Suspension {
 
   private:
     static constexpr Time kLeast = std::chrono::milliseconds(1);
-    Time offset_;  // lower bound of the boot clock's lead
+    Time offset_;  // lower bound on how far the boot clock is ahead
 };
 
 }  // namespace dihaptic::servo

@@ -8,9 +8,9 @@
 namespace dihaptic::servo {
 namespace {
 
-/// Without the higher priority, a servo that does not sleep would starve the watchdog on a shared
-/// processor. The servo's thread raises the priority, because the watchdog's own thread might never
-/// run.
+/// Gives the watchdog a higher priority: otherwise, a servo that never sleeps would starve it on a
+/// shared processor. The servo's thread sets the priority, because the watchdog's own thread might
+/// never get to run.
 void raise_above_this(std::thread& thread) {
     int policy = 0;
     sched_param priority{};
@@ -43,7 +43,7 @@ Watchdog::~Watchdog() {
 
 void Watchdog::run() {
     std::unique_lock lock(mutex_);
-    // returns false if the run ended first
+    // returns whether no tick ended for `limit`; false if the run ended first
     const auto no_tick_for = [&](Time limit, Clock::time_point from) {
         while (!done_) {
             const auto deadline = std::max(last_end(), from) + limit;
@@ -56,8 +56,8 @@ void Watchdog::run() {
     lock.unlock();
     stop_();
     lock.lock();
-    // after the whole program stood still, this thread may resume before the servo's, which needs
-    // some time
+    // if the whole program was stopped, this thread may resume before the servo's thread, which
+    // then needs some time
     if (!no_tick_for(kStuck, Clock::now())) return;
     lock.unlock();
     stuck_();

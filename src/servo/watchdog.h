@@ -1,10 +1,10 @@
-// Watchdog switches force off when the loop stalls. When a call to a device blocks, or the system
-// keeps the servo's thread waiting, devices hold the last force until it is switched off. The
-// watchdog has a thread of its own and calls only a stop function that may be called from any
-// thread; it does not touch the servo's data.
+// Watchdog switches force off when the loop stalls. If a call to a device blocks, or if the system
+// does not run the servo's thread, the devices hold the last force until someone switches it off.
+// The watchdog runs in its own thread and calls only a stop function that may be called from any
+// thread; it does not access the servo's data.
 //
-// Started from the servo's thread, it gets that thread's priority plus one. It sleeps from deadline
-// to deadline, without cost to the ticks.
+// The watchdog must be started from the servo's thread, and gets that thread's priority plus one.
+// It sleeps from deadline to deadline, so it does not slow down the ticks.
 #pragma once
 
 #include <atomic>
@@ -21,18 +21,18 @@ namespace dihaptic::servo {
 class Watchdog {
   public:
     using Clock = std::chrono::steady_clock;
-    /// A tick that has not ended this long after the stop is considered stuck.
+    /// If no tick has ended this long after the stop, the loop is considered stuck.
     static constexpr Time kStuck = std::chrono::seconds(2);
 
-    /// Calls `stop` once when no tick has ended for `limit`, and `stuck` once when none has ended
-    /// for kStuck after that, both from the watchdog's thread. The time of the first tick counts
-    /// from construction.
+    /// Calls `stop` once when no tick has ended for `limit`, and then `stuck` once when no tick has
+    /// ended for another kStuck; both are called from the watchdog's thread. The time allowed for
+    /// the first tick counts from construction.
     Watchdog(Time limit, std::function<void()> stop, std::function<void()> stuck);
     ~Watchdog();
     Watchdog(const Watchdog&) = delete;
     Watchdog& operator=(const Watchdog&) = delete;
 
-    /// Called from the servo's thread at the end of each tick. Neither waits nor allocates.
+    /// Called from the servo's thread at the end of each tick. Neither waits nor allocates memory.
     void end_tick(Clock::time_point now) noexcept {
         last_end_.store(now.time_since_epoch().count(), std::memory_order_release);
     }

@@ -1,18 +1,19 @@
-// WorkspaceTurn turns the workspaces of all devices together, so that the hand's right stays right
-// in a picture whose camera moves around the scene. For a turn by the angle a about the vertical z
-// through C,
+// WorkspaceTurn turns the workspaces of all devices together, so that a hand movement to the right
+// remains a movement to the right on the screen when the camera moves around the scene. If the
+// workspaces are turned by the angle a about the vertical axis z through C,
 //
 //     p_WH = c + T (p_0H - c)               T: rotation by a about z
 //     v_WH = T v_0H + a' z x (p_WH - c) and likewise for orientation and angular velocity
 //     f_0H = T^-1 f_WH
 //
-// where 0 denotes the world without the turn. All checks in axes fixed to the devices
-// (speeds, walls, limits) are independent of the turn. The power f_WH . (v_WH - a' z x (p_WH - c))
-// equals f_0H . v_0H; the rest of f_WH . v_WH is the work of the turn.
+// where the index 0 denotes the world without the turn. All checks made in axes fixed to the
+// devices (speeds, walls, limits) are independent of the turn. The power f_WH . (v_WH - a' z x
+// (p_WH - c)) equals f_0H . v_0H; the rest of f_WH . v_WH is the power of the turn itself.
 //
-// C is the mean of the devices' origins: their reach keeps its position, no point in it moves
-// faster than necessary, and C does not depend on a camera, which a replay lacks. The rate a' of
-// the angle changes by at most kMostAcceleration, so that neither force nor velocity steps.
+// C is the mean of the devices' origins. With this choice, the reachable space stays in place, no
+// point in it moves faster than necessary, and C does not depend on the camera, which a replay does
+// not have. The rate a' changes by at most kMostAcceleration per second, so that neither force nor
+// velocity jumps.
 #pragma once
 
 #include <algorithm>
@@ -26,14 +27,14 @@ namespace dihaptic::servo {
 
 class WorkspaceTurn {
   public:
-    /// At 0.2 m from the axis a handle at rest moves at 0.2 m/s, the speed of a calm hand and 2 %
-    /// of the speed that switches force off; and a force of 8.5 N changes by 8.5 N/s in the
-    /// device's axes, 0.3 % of the limit.
+    /// At this rate, a handle at rest 0.2 m from the axis moves at 0.2 m/s: the speed of a calm
+    /// hand, and 2 % of the speed at which force is switched off. A force of 8.5 N changes by 8.5
+    /// N/s in the device's axes, which is 0.3 % of the limit.
     static constexpr double kMostRate = 1;          // [rad/s]
     static constexpr double kMostAcceleration = 4;  // [rad/s^2]
 
     WorkspaceTurn() = default;
-    /// `X_WD` by device, without the turn.
+    /// `X_WD` contains the pose of each device, without the turn.
     explicit WorkspaceTurn(const std::vector<Pose>& X_WD) {
         for (const Pose& pose : X_WD) p_WC_ += pose.p / static_cast<double>(X_WD.size());
     }
@@ -44,21 +45,21 @@ class WorkspaceTurn {
         angle_ = angle;
         R_ = Quat(std::cos(angle / 2), 0, 0, std::sin(angle / 2));
     }
-    /// Advances to the next tick, `elapsed` [s] after the last.
+    /// Advances to the next tick, which is `elapsed` [s] after the last one.
     void advance(double elapsed) noexcept {
         if (rate_ != 0) set_angle(angle_ + rate_ * elapsed);
     }
-    /// Sets the rate from this tick on, within the bounds above. `elapsed` [s]: since the last
-    /// order, or a tick's length if that is longer; with late ticks, the turn could not slow down
-    /// in time otherwise.
+    /// Sets the rate from this tick on, within the limits above. `elapsed` is the time since the
+    /// last order or the length of a tick, whichever is longer [s]; otherwise, if ticks are late,
+    /// the turn could not slow down in time.
     void order(double rate, double elapsed) noexcept {
         const double change = kMostAcceleration * elapsed;
         rate_ = std::clamp(std::clamp(rate, -kMostRate, kMostRate), rate_ - change, rate_ + change);
     }
     void stop() noexcept { rate_ = 0; }
-    /// The rate to order at `angle` for the shortest way to `goal` [rad]: kMostRate, and near the
-    /// goal in proportion to the remaining angle, so that it slows down by at most
-    /// kMostAcceleration.
+    /// The rate to order at `angle` in order to reach `goal` [rad] by the shorter way: kMostRate
+    /// or, near the goal, a rate proportional to the remaining angle, so that the turn slows down
+    /// by at most kMostAcceleration.
     static double rate_toward(double goal, double angle) noexcept {
         constexpr double kThere = 1e-6;  // [rad]
         const double way = std::remainder(goal - angle, 2 * std::numbers::pi);
@@ -73,7 +74,7 @@ class WorkspaceTurn {
         return angle_ == 0 ? p : p_WC_ + R_.conjugate() * (p - p_WC_);
     }
     Pose turned(const Pose& X) const noexcept { return {R_ * X.R, turned(X.p)}; }
-    /// `orientation`: whether the handle has an orientation and an angular velocity.
+    /// `orientation` states whether the handle has an orientation and an angular velocity.
     frame::Handle turned(const frame::Handle& handle, bool orientation) const noexcept {
         if (angle_ == 0 && rate_ == 0) return handle;
         frame::Handle out;

@@ -13,8 +13,8 @@
 namespace dihaptic::session {
 namespace {
 
-/// Reports faults that a movement would have in any experiment. Its axes, which the experiment
-/// chooses, do not matter here.
+/// Reports faults that make a movement unusable in any experiment. The movement's axes, which the
+/// experiment chooses, do not matter here.
 void check_movement(const std::string& file, Diagnostics& diagnostics) {
     const std::vector<std::string> usual{"thumb", "index", "middle", "ring", "little"};
     const hand::Movement movement =
@@ -46,7 +46,7 @@ void check_movement(const std::string& file, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns of states that never end if the event for which they wait does not come.
+/// Warns about states that never end if the event for which they wait does not occur.
 std::vector<Problem> endless_states(const task::TaskPlan& task) {
     std::vector<Problem> out;
     for (size_t i = 0; i < task.states.size(); ++i) {
@@ -81,8 +81,8 @@ Checked check_file(const std::string& file, Diagnostics& diagnostics, const std:
         const task::FileKind kind = task::kind_of(file);
         switch (kind) {
             case task::FileKind::rig: {
-                // read here only to check the settings: an experiment's plan applies them over
-                // those of its scene
+                // read here only to check the settings: the plan of an experiment applies them
+                // after those of its scene
                 const rig::Rig checked = rig::read_rig(file, diagnostics);
                 frame::Settings settings;
                 read_given_fields(settings, checked.settings, diagnostics);

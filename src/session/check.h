@@ -1,4 +1,4 @@
-// The command `dihaptic check`: checks any of Dihaptic's files before a person sits down.
+// The command `dihaptic check`, which checks any of Dihaptic's files before a person sits down.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 namespace dihaptic::session {
 
 struct Checked {
-    std::string what;                 ///< kind of the file, as text
+    std::string what;                 ///< kind of file, as text
     std::vector<std::string> limits;  ///< force limits that differ from the defaults, with their
                                       ///< origins: describe_safety()
 };
 
-/// Reads any file of a kind that Dihaptic knows, and the files that it names; problems are reported
-/// to `diagnostics`. `rig`: a rig file to use in place of the experiment's; may be empty.
+/// Reads a file of any kind that Dihaptic knows, and all files that it refers to; reports problems
+/// to `diagnostics`. `rig` is a rig file to use instead of the experiment's; it may be empty.
 Checked check_file(const std::string& file, Diagnostics& diagnostics, const std::string& rig = "");
 
 }  // namespace dihaptic::session

@@ -19,7 +19,7 @@
 namespace dihaptic::session {
 namespace {
 
-/// Mappings in a file whose keys are names chosen in the file itself.
+/// The schema of mappings whose keys are names chosen in the file itself.
 Json by_name(const Json& value) {
     return {{"type", {"object", "null"}}, {"additionalProperties", value}};
 }
@@ -68,7 +68,7 @@ const FileSchema& file_schema(const std::string& name) {
 
 namespace {
 
-/// The path as editors read it: to them, a blank ends it.
+/// Converts a path to the form that editors can read: in a plain path, a space would end the path.
 std::string as_address(const std::string& path) {
     constexpr std::string_view kPlain = "/._~-";
     const auto is_plain = [&](char c) {

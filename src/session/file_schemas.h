@@ -1,4 +1,4 @@
-// The JSON Schemas of the files that people write, for editors (base/json_schema.h).
+// JSON Schemas for the files that people write, for use by editors (base/json_schema.h).
 #pragma once
 
 #include <span>
@@ -7,17 +7,17 @@
 namespace dihaptic::session {
 
 struct FileSchema {
-    const char* name;       ///< name of the kind of file, and of its schema's file
+    const char* name;       ///< name of the kind of file; also the name of its schema file
     std::string (*json)();  ///< the schema's text
 };
 
 /// All schemas.
 std::span<const FileSchema> file_schemas();
-/// The schema with this name. Throws Error when there is none.
+/// Returns the schema with this name. Throws Error if there is none.
 const FileSchema& file_schema(const std::string& name);
 
-/// A first line, with its line end, from which an editor finds a file's schema; "" if the schemas
-/// are missing.
+/// Returns the first line for a file (including the line break), which tells editors where to find
+/// the file's schema; "" if the schemas are not installed.
 std::string schema_line(const std::string& name);
 
 }  // namespace dihaptic::session

@@ -36,14 +36,14 @@ Table fault_table(const MovementReport& movement) {
     return faults;
 }
 
-/// Freezes one plan's inputs, in the order of their list.
+/// Freezes the inputs of a plan, in the order in which they are listed.
 class Freezer {
   public:
     Freezer(const Plan& plan, const recording::SessionFolder& folder)
         : plan_(plan), folder_(folder), scene_(plan.scene) {}
 
     std::vector<recording::InputFile> run() {
-        scene_.settings = {};  // the resolved settings are in settings.yaml
+        scene_.settings = {};  // settings.yaml has the resolved settings
         scene_.hand = write_fields(plan_.hand);
         freeze_meshes();
         freeze_textures();
@@ -67,9 +67,9 @@ class Freezer {
   private:
     void list(const std::string& name) { inputs_.push_back(folder_.input(name)); }
 
-    /// Copies a file that was read for the plan to the session's folder. Throws Error when it has
-    /// changed: the session would differ from the files in its folder. `read`: the checksum of the
-    /// text that was read.
+    /// Copies a file that was read for the plan into the session's folder. `read` is the checksum
+    /// of the text that was read. Throws Error if the file has changed since then, because the
+    /// session would differ from the files in its folder.
     void copy(const fs::path& file, const std::string& name, const std::string& read) const {
         copy_file(file, name);
         check_same(file, folder_.input(name).checksum, read);
@@ -91,7 +91,8 @@ class Freezer {
                     "Start again once no program is writing to it.");
     }
 
-    /// Copies and lists a file. Returns the name that it has in the session's folder.
+    /// Copies a file and adds it to the list of inputs. Returns the file's name in the session's
+    /// folder.
     std::string freeze(const fs::path& file, const std::string& kind, size_t number,
                        const std::string& read) {
         std::string name = fmt::format("{}-{}-{}", kind, number, file.filename().string());
@@ -100,8 +101,8 @@ class Freezer {
         return name;
     }
 
-    /// Freezes the materials that give a mesh its colours, next to the mesh's copy, which has this
-    /// name.
+    /// Freezes the materials that define a mesh's colours. They are stored next to the copy of the
+    /// mesh, which has this name.
     void freeze_materials(const scene::Mesh* mesh, const std::string& name) {
         if (mesh == nullptr || mesh->colours.empty() || mesh->materials.empty()) return;
         const std::string beside = scene::materials_beside(name);
@@ -109,7 +110,8 @@ class Freezer {
         list(beside);
     }
 
-    /// Each of these functions replaces names in the scene, or in the task, by those of the copies.
+    /// Each of these functions replaces file names in the scene, or in the task, with the names of
+    /// the copies.
     void freeze_meshes() {
         size_t count = 0;
         const std::function<void(scene::Shape&)> freeze_one = [&](scene::Shape& shape) {
@@ -135,7 +137,7 @@ class Freezer {
                 freeze(of_scene(texture.file), "texture", ++count, texture.picture->checksum());
         }
     }
-    /// A picture is copied once, however many bodies use it.
+    /// Each picture is copied only once, even if several bodies use it.
     void freeze_looks() {
         std::map<std::string, std::string> pictures;
         size_t meshes = 0;
@@ -177,7 +179,7 @@ class Freezer {
         if (!plan_.movement) return;
         const MovementReport& movement = *plan_.movement;
         copy_file(movement.file, "movement.csv");
-        // read_text_file() omits a byte order mark
+        // read_text_file() removes a byte order mark
         check_same(movement.file, checksum_of(read_text_file(folder_.file("movement.csv"))),
                    movement.checksum);
         list("movement.csv");

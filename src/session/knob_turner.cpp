@@ -21,7 +21,7 @@ void KnobTurner::turn(const frame::Frame& last, double h, frame::Knobs& now) noe
     });
     goal_ = *wanted;
     if (anew) left_ = kEase;
-    // taking this share of the remaining change in each tick gives a straight line that ends on
+    // moving by this share of the remaining change in each tick gives a straight line that ends on
     // time
     const double share = left_ > h ? h / left_ : 1;
     left_ = std::max(0.0, left_ - h);

@@ -15,13 +15,13 @@ namespace {
 
 constexpr double kFastReach = 0.5;  // speed of a fast reach [m/s]
 
-/// Checks the loads of all conditions; each fault is reported once.
+/// Checks the loads in all conditions; reports each fault only once.
 class LoadChecks {
   public:
     LoadChecks(const Plan& plan, Diagnostics& diagnostics)
         : plan_(plan), diagnostics_(diagnostics) {}
 
-    /// The loads of all conditions; loads with formulas are resolved for every trial.
+    /// Checks the loads in all conditions; loads with formulas are evaluated for every trial.
     void check() {
         for (const task::TaskPlan::Cell& cell : plan_.task->cells) check(cell, false);
         if (plan_.task->formulas.empty()) return;
@@ -67,7 +67,7 @@ class LoadChecks {
         say({Severity::warning, load.spec().place, key, what, remedy});
     }
 
-    /// Faults that differ only in their numbers are reported once.
+    /// Reports a fault, unless one that differs only in its numbers was reported before.
     void say(const Problem& problem) {
         std::string text = problem.text();
         std::erase_if(text,
@@ -80,7 +80,7 @@ class LoadChecks {
         return fmt::format("a {} load", enum_name(load.spec().kind));
     }
 
-    /// Checks against the limits of a coupling's stiffness and damping.
+    /// Checks a load against the limits on a coupling's stiffness and damping.
     void check_loop(const task::Load& load, const Demand& demand, const frame::DeviceInfo& info) {
         const double period = plan_.settings.tick() + 2 * (info.delay + load.delay());
         const double stiffest = model::passive_stiffness(info.damping, period);
@@ -109,7 +109,7 @@ class LoadChecks {
         }
     }
 
-    /// Checks against the largest force that reaches the hand.
+    /// Checks a load against the largest force that can reach the hand.
     void check_force(const task::Load& load, const Demand& demand, const frame::DeviceInfo& info) {
         const double most = plan_.settings.safety.largest_force(info.peak_force, info.scale);
         if (std::isfinite(demand.force) && demand.force > most && !demand.holds) {
@@ -156,8 +156,8 @@ class LoadChecks {
         }
     }
 
-    /// A load on a body is explicit: with stiffness k and damping b it is calm while k h^2 + 2 b h
-    /// < 4 m.
+    /// Checks a load on a body. Such loads are integrated explicitly: with stiffness k and damping
+    /// b, a load is stable as long as k h^2 + 2 b h < 4 m.
     void check_body(const task::Load& load, const Demand& demand, const scene::Body& body) {
         const double h = plan_.settings.step();
         const double mass = scene::mass(body);

@@ -1,12 +1,13 @@
-// Checks a task's loads against the limits of the loop, the devices and the world's step.
+// Checks a task's loads against the limits of the loop, the devices and the world's time step.
 #pragma once
 
 #include "session/plan.h"
 
 namespace dihaptic::session {
 
-/// Warns of loads that shake or throw a handle, keep driving a hand, exceed a device's limit or the
-/// safety limit, or make a body diverge. A torque on a handle that renders none is an error.
+/// Warns about loads that shake or throw a handle, keep driving a hand, exceed a device's limit or
+/// the safety limit, or make a body diverge. A torque on a handle that cannot render torques is an
+/// error.
 void check_loads(const Plan& plan, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::session

@@ -12,7 +12,7 @@
 namespace dihaptic::session {
 namespace {
 
-/// The largest mass ratio in a stack that a solver can hold (src/dynamics/README.md).
+/// Largest mass ratio in a stack that a solver can handle (src/dynamics/README.md).
 double most_ratio(contact::Solver solver) {
     switch (solver) {
         case contact::Solver::sequential_impulse:
@@ -53,7 +53,7 @@ void check_ratio(const Plan& plan, Diagnostics& diagnostics) {
               : "Make their masses more alike.");
 }
 
-/// Bodies and their joints, as a tree suspended from immovable bodies.
+/// Bodies and their joints, as trees suspended from immovable bodies.
 class Mechanisms {
   public:
     explicit Mechanisms(const scene::Scene& scene) : scene_(scene) {
@@ -61,7 +61,7 @@ class Mechanisms {
         links_.resize(count);
         std::vector<size_t> order;
         for (size_t at = 0; order.size() < count;) {
-            if (at == order.size()) {  // another mechanism, starting from its fixed joint
+            if (at == order.size()) {  // start another mechanism from its fixed joint
                 if (!hang_next(order)) break;
                 continue;
             }
@@ -74,8 +74,8 @@ class Mechanisms {
         }
     }
 
-    /// The rate at which a suspended load turns a link, sqrt(T l / I), for the tension T and the
-    /// distance l between its joints; and the tension.
+    /// How fast a suspended load turns a link: `rate` is sqrt(T l / I), where T is the tension and
+    /// l is the distance between the link's joints.
     struct Turned {
         double rate = 0;     // [rad/s]
         double tension = 0;  // [N]
@@ -106,11 +106,11 @@ class Mechanisms {
         bool hung = false;
         std::optional<size_t> above;
         std::optional<Vec3> hangs_at;    // position in the world [m]
-        std::optional<Vec3> carries_at;  // that of the joint with the heaviest load
-        double carries = 0;              // carried mass, including the link's own [kg]
+        std::optional<Vec3> carries_at;  // position of the joint that carries the heaviest load [m]
+        double carries = 0;              // carried mass, including the link's own mass [kg]
     };
 
-    /// The body's index, or none for an immovable body.
+    /// Returns the body's index, or nullopt for an immovable body.
     std::optional<size_t> moving(const std::string& name) const {
         const auto i = static_cast<size_t>(scene_.find(name));
         if (i >= scene_.bodies.size() || !moves(scene_.bodies[i])) return std::nullopt;

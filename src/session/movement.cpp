@@ -8,18 +8,18 @@
 namespace dihaptic::session {
 namespace {
 
-constexpr double kClearance = 1.5e-3;  // distance at which a finger clears the block's edge [m]
-constexpr double kThinnest = 2e-3;     // least width of a block [m]
+constexpr double kClearance = 1.5e-3;  // clearance between a finger and the edge of the block [m]
+constexpr double kThinnest = 2e-3;     // smallest width of a block [m]
 
-/// Half extents of a proxy along the grasp, across it, and up.
+/// Half extents of a proxy along the grasp axis, across it, and upward.
 Vec3 half_extents(const scene::Shape& shape) {
     if (shape.kind == scene::ShapeKind::box) return shape.size / 2;
     return Vec3::Constant(scene::extent(shape) / 2);
 }
 
-/// Least distance of a finger from the middle, along the grasp axis, while it passed the block's
-/// edge on its way to the face [m]. `half` and `reach` are the block's half extents, without and
-/// with the finger's. `side` is -1 or +1 along the axis.
+/// Smallest distance of a finger from the middle, measured along the grasp axis, while the finger
+/// passed the block's edge on its way to the face [m]. `half` contains the half extents of the
+/// block, `reach` those of block and finger together. `side` is -1 or +1 along the axis.
 double passing_distance(const std::vector<Vec3>& path, const hand::GraspSite& site,
                         const Quat& R_WB, int side, const Vec3& half, const Vec3& reach) {
     const auto at = [&](size_t i) { return Vec3(R_WB.conjugate() * (path[i] - site.centre)); };
@@ -35,16 +35,17 @@ double passing_distance(const std::vector<Vec3>& path, const hand::GraspSite& si
     return nearest;
 }
 
-/// Positions of the block's two faces along the grasp axis, measured from midway between the
+/// Positions of the block's two faces along the grasp axis, measured from the midpoint between the
 /// fingers.
 struct Faces {
-    double first = 0;  ///< on the first finger's side, positive outward [m]
+    double first = 0;  ///< face on the first finger's side, positive outward [m]
     double second = 0;
 };
 
-/// Both recorded fingers should go `squeeze` beyond the faces. A finger that slid into position
-/// along the face, like the index finger in a precision grip, would then run into the block's edge:
-/// the face on its side moves back to the finger's path, and the other finger squeezes more.
+/// Places the faces so that both recorded fingers go `squeeze` beyond them. If a finger slid into
+/// position along the face, as the index finger does in a precision grip, it would run into the
+/// block's edge. In that case, the face on its side is moved back to the finger's path, and the
+/// other finger squeezes more.
 Faces fit_faces(const hand::Path& path, const hand::GraspSite& site, const Quat& R_WB,
                 const Vec3& block, const scene::Scene& scene, double squeeze) {
     std::array<double, 2> wanted{};
@@ -67,7 +68,7 @@ Faces fit_faces(const hand::Path& path, const hand::GraspSite& site, const Quat&
     return {face[0], face[1]};
 }
 
-/// The scene's box with this name; null if there is none.
+/// Returns the scene's box with this name, or null if there is none.
 scene::Body* find_box(scene::Scene& scene, const std::string& name) {
     const int i = scene.find(name);
     if (i < 0) return nullptr;
@@ -75,7 +76,7 @@ scene::Body* find_box(scene::Scene& scene, const std::string& name) {
     return body.shape.kind == scene::ShapeKind::box ? &body : nullptr;
 }
 
-/// The movement's grasp; nullopt, with an error, if there is none.
+/// Finds the grasp in the movement. If there is none, reports an error and returns nullopt.
 std::optional<hand::GraspSite> grasp_of(const hand::Path& path, const task::MovementSpec& spec,
                                         const std::string& file, const Place& asked_at,
                                         Diagnostics& diagnostics) {
@@ -141,7 +142,7 @@ std::shared_ptr<const hand::Driver> place_movement(const task::MovementSpec& spe
     const hand::Path path = hand::repair(movement);
     const auto site = grasp_of(path, spec, file, asked_at, diagnostics);
     if (!site) return nullptr;
-    // the block stands upright: it turns only with the grasp's direction in the horizontal plane
+    // the block stays upright: it is turned only by the grasp direction in the horizontal plane
     const double yaw = std::atan2(site->axis.y(), site->axis.x());
     const Quat R_WB = rotation_xyz({0, 0, yaw});
     Faces faces = fit_faces(path, *site, R_WB, block->shape.size, scene, spec.squeeze);

@@ -8,8 +8,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kLook{5};      // longest sleep before the pace is checked again
-constexpr milliseconds kBehind{100};  // a larger delay is not made up for
+constexpr milliseconds kLook{5};      // longest sleep before the requested pace is read again
+constexpr milliseconds kBehind{100};  // a delay larger than this is not made up for
 
 }  // namespace
 
@@ -26,7 +26,7 @@ bool Pacing::wait_in_pause() {
 
 void Pacing::wait(Time now) {
     if (live_.paused) {
-        pace_ = -1;  // time starts again after the pause
+        pace_ = -1;  // after the pause, the pace is timed anew
         if (wait_in_pause()) return;
     }
     while (!over()) {

@@ -1,4 +1,4 @@
-// Sets a session's phase from the time alone.
+// Sets a session's phase according to time alone.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace dihaptic::session {
 
-/// The director of sessions without a task: phases by time, as given by the driver.
+/// The director of sessions without a task: the driver defines the times of the phases.
 class PhaseDirector {
   public:
     PhaseDirector(std::vector<recording::PhaseInfo> phases, double tick)

@@ -36,7 +36,7 @@ std::string folder_of(const std::string& file) {
     return fs::path(file).parent_path().string();
 }
 
-/// Turns "coupling.stiffness_N_m=600" into the mapping that a file would contain.
+/// Converts "coupling.stiffness_N_m=600" to the mapping that a settings file would contain.
 Node setting(const std::string& text) {
     const size_t equals = text.find('=');
     if (equals == std::string::npos) {
@@ -65,7 +65,7 @@ void overlay(Plan& plan, const Node& settings, Diagnostics& diagnostics) {
     read_given_fields(plan.settings, settings, diagnostics, &plan.origins);
 }
 
-/// Reads the experiment; for a scene file, returns an empty one. Throws Error.
+/// Reads the experiment file; for a scene file, returns an empty experiment. Throws Error.
 task::Experiment experiment_of(const std::string& file, Diagnostics& diagnostics) {
     const task::FileKind kind = task::kind_of(file);
     if (kind == task::FileKind::scene) return {};
@@ -90,7 +90,7 @@ void plan_scene(Plan& plan, const Request& request, const task::Experiment& expe
     plan.study = experiment.study;
 }
 
-/// Path of the rig file; "" stands for ideal simulated devices.
+/// Returns the path of the rig file; "" stands for ideal simulated devices.
 std::string rig_file(const Request& request, const task::Experiment& experiment) {
     if (!request.rig.empty()) return request.rig;
     return experiment.rig.empty() ? "" : named_in(folder_of(request.file), experiment.rig);
@@ -104,7 +104,7 @@ void plan_rig(Plan& plan, const Request& request, const task::Experiment& experi
         plan.rig = rig::read_rig(file, diagnostics,
                                  typed ? rig::NamedBy::the_operator : rig::NamedBy::a_file);
     } else {
-        // a mouse can turn the hand, but this has an effect only if orientation is measured
+        // a mouse can also turn the hand, which has an effect only if orientation is measured
         plan.rig = rig::simulated_rig(scene::finger_names(plan.scene), request.mouse);
     }
     rig::check_age(plan.rig, recording::iso_now(), diagnostics);
@@ -120,7 +120,8 @@ void plan_rig(Plan& plan, const Request& request, const task::Experiment& experi
         diagnostics.warning(one.place, one.key, one.what, one.remedy);
 }
 
-/// Overlays the settings of scene, rig, experiment and command line, in this order: later ones win.
+/// Applies the settings of the scene, rig, experiment and command line, in this order; later values
+/// override earlier ones.
 void plan_settings(Plan& plan, const Request& request, const task::Experiment& experiment,
                    Diagnostics& diagnostics) {
     overlay(plan, plan.scene.settings, diagnostics);
@@ -134,7 +135,7 @@ void plan_settings(Plan& plan, const Request& request, const task::Experiment& e
     limit_safety(plan, safety, diagnostics);
 }
 
-/// Path of the movement file; "" if there is none.
+/// Returns the path of the movement file; "" if there is none.
 std::string movement_file(const Request& request, const task::Experiment& experiment) {
     if (!request.movement.empty()) return request.movement;
     if (!experiment.movement || experiment.movement->file.empty()) return "";
@@ -164,13 +165,13 @@ void check_use_of_movement(const Plan& plan, const Request& request,
     }
 }
 
-/// Finds the files that a task names, from `folder` on.
+/// Finds the files that a task refers to; relative paths start from `folder`.
 void find_files(task::Task& task, const std::string& folder, Diagnostics& diagnostics) {
     task::find_pictures(task, folder, diagnostics);
     task::find_sounds(task, folder, diagnostics);
 }
 
-/// The trials, and the hand that performs them.
+/// Plans the trials and the hand that performs them.
 void plan_trials(Plan& plan, task::Task task, const Request& request, Diagnostics& diagnostics) {
     find_files(task, folder_of(request.file), diagnostics);
     sound::check(task.sounds, plan.rig.sound.value_or(display::SoundOutput{}), diagnostics);
@@ -192,7 +193,7 @@ void plan_trials(Plan& plan, task::Task task, const Request& request, Diagnostic
     plan.task = made;
 }
 
-/// Driver for a person at real devices: one phase, as long as the longest session.
+/// Returns the driver for a person at real devices: a single phase, as long as the longest session.
 std::shared_ptr<const hand::Driver> person_at_devices(const Plan& plan) {
     hand::HandSpec hand;
     hand.centre = plan.hand.centre;
@@ -200,7 +201,8 @@ std::shared_ptr<const hand::Driver> person_at_devices(const Plan& plan) {
     return std::make_shared<hand::ScriptDriver>(hand, scene::finger_names(plan.scene));
 }
 
-/// Sets the driver. For a simulated person this is the file's hand, which the caller replaces.
+/// Sets the driver. If the mover is a simulated person, the driver is at first the hand described
+/// in the file, which the caller replaces.
 void seat_mover(Plan& plan, recording::Mover mover) {
     const std::vector<std::string> fingers = scene::finger_names(plan.scene);
     if (mover == recording::Mover::devices) {
@@ -215,7 +217,7 @@ void seat_mover(Plan& plan, recording::Mover mover) {
     plan.moved_by.mover = mover;
 }
 
-/// Chooses the mover of the hand, from the rig, the request and the files.
+/// Determines who or what moves the hand from the rig, the request and the files.
 void plan_driver(Plan& plan, const Request& request, const task::Experiment& experiment,
                  Diagnostics& diagnostics) {
     const std::string movement = movement_file(request, experiment);
@@ -247,7 +249,7 @@ devices::Context context_of(const Plan& plan) {
     return context;
 }
 
-/// Checks the plan against the devices as the rig describes them; opens none.
+/// Checks the plan against the devices as described in the rig, without opening them.
 void check_by_description(Plan& plan, Diagnostics& diagnostics) {
     plan.devices = rig::describe(plan.rig, scene::finger_names(plan.scene), context_of(plan));
     check_plan(plan, diagnostics);
@@ -329,8 +331,8 @@ std::shared_ptr<person::Person> sit_down(Plan& plan, const person::Traits& trait
 
 namespace {
 
-/// Reads the attempts from trials.csv, which has a row for each attempt in chronological order, and
-/// the file's checksum.
+/// Reads the attempts from trials.csv, which has one row per attempt in chronological order, and
+/// computes the file's checksum.
 std::vector<task::Attempt> attempts_made(const task::TaskPlan& plan, const std::string& file,
                                          std::string& checksum) {
     const auto bad = [&](const char* what) {
@@ -363,9 +365,9 @@ std::vector<task::Attempt> attempts_made(const task::TaskPlan& plan, const std::
     return out;
 }
 
-/// The mover of a session's hand; throws Error if it cannot move the hand again. Earlier versions
-/// did not record it, but only a person holds real devices, and only a simulated person has its own
-/// file.
+/// Returns the mover of a session's hand; throws Error if that mover cannot move the hand again.
+/// Earlier versions did not record the mover, but only a person holds real devices, and only a
+/// session of a simulated person contains person.yaml.
 recording::Mover mover_of(const recording::SessionInfo& info, const Plan& plan,
                           const recording::SessionFolder& folder, Seat seat) {
     using recording::Mover;
@@ -396,14 +398,14 @@ recording::Mover mover_of(const recording::SessionInfo& info, const Plan& plan,
     return mover;
 }
 
-/// The path of a folder including its name (which "." lacks), by which readers can identify the
-/// session.
+/// Returns the path of a folder including its name (which a path such as "." lacks), by which
+/// readers can identify the session.
 std::string named(const std::string& folder) {
     const fs::path name = fs::path(folder).filename();
     return name == "." || name == ".." ? fs::canonical(folder).string() : folder;
 }
 
-/// The plan of a session from its own files, with the outcome of each attempt.
+/// Makes the plan of a session from the session's own files, with the outcome of each attempt.
 Plan frozen_plan(const recording::SessionFolder& folder, const recording::SessionInfo& info,
                  Diagnostics& diagnostics) {
     if (!is_there(folder.file("task.yaml"))) {
@@ -481,7 +483,7 @@ std::unique_ptr<devices::DeviceGroup> open_devices(Plan& plan, const std::string
                                                    const std::function<bool()>& given_up) {
     std::optional<host::Hosting> hosting;
     if (!host.empty()) {
-        // one tick more than the servo itself allows, like the servo's own watchdog
+        // one tick more than the servo allows, as for the servo's own watchdog
         const double silence = plan.settings.safety.max_pause + plan.settings.tick();
         hosting = {host, silence, plan.settings.real_time_priority, given_up};
     }

@@ -1,5 +1,5 @@
-// A plan holds all inputs of a session, read, resolved and checked, so that no file can be missing
-// or wrong once a person holds the devices.
+// A plan contains all inputs of a session, already read, resolved and checked, so that no file can
+// turn out to be missing or wrong once a person holds the devices.
 #pragma once
 
 #include <memory>
@@ -23,45 +23,46 @@ class Person;
 
 namespace dihaptic::session {
 
-/// The user's request.
+/// What the user requests.
 struct Request {
-    std::string file;              ///< a scene or an experiment
-    std::string rig;               ///< replaces the experiment's rig
-    std::string movement;          ///< replaces the experiment's movement
-    std::vector<std::string> set;  ///< "coupling.stiffness_N_m=600": settings from the command line
+    std::string file;              ///< path of a scene or experiment file
+    std::string rig;               ///< rig file to use instead of the experiment's
+    std::string movement;          ///< movement file to use instead of the experiment's
+    std::vector<std::string> set;  ///< settings given as "coupling.stiffness_N_m=600"
     uint64_t seed = 1;
-    bool mouse = false;               ///< a mouse, not the file, moves the simulated hand
-    std::string participant;          ///< identifier, whose number may set the order of trials
-    std::optional<int> order_number;  ///< used in place of the participant's number
-    bool simulate = false;            ///< simulated devices, whatever devices the rig has
-    std::stop_token stop;             ///< ends the reading and cutting of meshes
+    bool mouse = false;               ///< whether a mouse, not the file, moves the simulated hand
+    std::string participant;          ///< participant ID, whose number may set the order of trials
+    std::optional<int> order_number;  ///< used instead of the number in the participant ID
+    bool simulate = false;            ///< use simulated devices, whatever devices the rig has
+    std::stop_token stop;             ///< cancels the reading and cutting of meshes
 };
 
 struct Plan {
     std::string title;
     std::string file;
-    std::string scene_folder;  ///< folder to which the paths of the scene's meshes are relative
+    std::string scene_folder;  ///< the paths of the scene's meshes are relative to this folder
     scene::Scene scene;
     rig::Rig rig;
-    /// Description of the devices by the rig or, once they are open, by themselves; by finger.
+    /// Descriptions of the devices, indexed by finger: from the rig or, once the devices are open,
+    /// as reported by the devices.
     std::vector<frame::DeviceInfo> devices;
     frame::Settings settings;
     Origins origins;
     hand::HandSpec hand;
-    /// Moves simulated devices, which share it. With a person at real devices, the driver stays
-    /// still.
+    /// The driver that moves all simulated devices. If a person holds real devices, the driver
+    /// stands still.
     std::shared_ptr<const hand::Driver> driver;
-    std::shared_ptr<hand::MouseDriver> mouse;  ///< the driver, if a mouse moves the hand
+    std::shared_ptr<hand::MouseDriver> mouse;  ///< the driver if a mouse moves the hand, else null
     recording::MovedBy moved_by;               ///< the mover that the driver represents
     Study study;
     std::optional<MovementReport> movement;
-    std::shared_ptr<const task::TaskPlan> task;  ///< trials; null if the experiment has none
-    std::shared_ptr<task::SeeingDriver> seeing;  ///< the driver, if it acts on its sight
-    std::shared_ptr<person::Person> partner;     ///< simulated partner in a task for two
+    std::shared_ptr<const task::TaskPlan> task;  ///< the trials; null if the experiment has none
+    std::shared_ptr<task::SeeingDriver> seeing;  ///< the driver if it reacts to what it sees
+    std::shared_ptr<person::Person> partner;     ///< simulated partner in a task for two people
     std::string person;               ///< text of person.yaml, if the driver is a simulated person
-    bool resumable = true;            ///< the driver can be rebuilt from the session's files
-    std::vector<task::Attempt> done;  ///< attempts made in an earlier part of the session
-    std::string resumes;              ///< folder of that earlier part; empty if there is none
+    bool resumable = true;            ///< whether the driver can be rebuilt from session files
+    std::vector<task::Attempt> done;  ///< attempts already made in an earlier part of the session
+    std::string resumes;              ///< folder of the earlier part; empty if there is none
     std::string done_checksum;        ///< checksum of its trials.csv, as read (base/checksum.h)
     std::vector<Problem> warnings;
     uint64_t seed = 1;
@@ -70,51 +71,53 @@ struct Plan {
     bool open_ended() const { return !task && (mouse || rig::is_real(rig)); }
 };
 
-/// Applies a setting given as text, such as "coupling.stiffness_N_m=600". Throws Error.
+/// Applies a setting given as text, such as "coupling.stiffness_N_m=600". Throws Error if the
+/// setting is invalid.
 void apply_setting(frame::Settings& settings, const std::string& text);
 
-/// Whether the requested session runs on real devices, which keep real time. Problems with its
-/// files are reported by make_plan().
+/// Whether the requested session runs on real devices, and therefore in real time. Problems with
+/// the session's files are reported by make_plan().
 bool on_real_devices(const Request& request);
 
-/// Reads and checks all files; opens no device. On real devices no hand is simulated: a hand in the
-/// files is ignored, and without trials the session continues until the operator ends it. Throws
-/// Error with every problem found.
+/// Reads and checks all files, without opening devices. On real devices no hand is simulated: a
+/// hand described in the files is ignored, and if there are no trials, the session continues until
+/// the operator ends it. Throws an Error that contains every problem found.
 Plan make_plan(const Request& request);
 
-/// Whether the plan's task is for two participants.
+/// Whether the plan's task requires two participants.
 bool is_for_two(const Plan& plan);
-/// Identifier of a simulated participant's partner.
+/// Returns the ID of a simulated participant's partner.
 std::string partner_of(const std::string& id);
 
-/// Puts a simulated person in place of the plan's hand, and returns the person, who belongs to the
-/// plan. The plan must have trials. `partner`: the other person in a task for two; if unset,
-/// somebody with the same traits, who differs only by chance.
+/// Replaces the plan's hand with a simulated person, and returns this person, who is owned by the
+/// plan. The plan must have trials. `partner` contains the traits of the other person in a task for
+/// two; if it is unset, the partner has the same traits and differs only by chance.
 std::shared_ptr<person::Person> sit_down(Plan& plan, const person::Traits& traits,
                                          const std::optional<person::Traits>& partner = {});
 
-/// The program that resumes a session: only a window has a mouse.
+/// Where a session is resumed: only a window can use a mouse.
 enum class Seat { terminal, window };
 
 /// Plans the rest of a session with trials, from its frozen inputs and its tables, with the same
-/// mover as before. The caller adds the driver of a simulated person (session/resume.h). Throws
-/// Error when no trial is left, when the session has no trials, or when the mover of its hand is
-/// unknown or not available here.
+/// mover as before. If the mover is a simulated person, the caller must add the driver
+/// (session/resume.h). Throws Error when no trial is left, when the session has no trials, or when
+/// the mover of its hand is unknown or cannot be used here.
 Plan make_rest(const std::string& session, Seat seat, recording::SessionInfo& info);
-/// Whether the session has trials left. Throws Error if it never had any or if its files are
-/// damaged.
+/// Whether the session has trials left. Throws Error if the session never had any trials or if its
+/// files are damaged.
 bool trials_left(const std::string& session);
 
-/// Opens the plan's devices, which its session takes over. If they report more than their rig does,
-/// the plan is checked against their report: settings given as shares of their maximum are
-/// resolved, and warnings added. `host`: the program that owns real devices (host::program())
-/// and switches the force off when this process dies; "": this process owns them. The plan's driver
-/// must outlive the devices. `given_up`: returns whether to stop waiting for a device host that
-/// does not answer; may be empty. Throws Error.
+/// Opens the plan's devices, which are then passed to its session. If the devices report more than
+/// their rig does, the plan is checked against their report: settings given as a share of the
+/// devices' maximum are resolved, and warnings are added. `host` is the program that owns real
+/// devices (host::program()) and switches force off when this process dies; if it is "", this
+/// process owns the devices. The plan's driver must outlive the devices. `given_up` returns whether
+/// to stop waiting for a device host that does not answer; it may be empty. Throws Error.
 std::unique_ptr<devices::DeviceGroup> open_devices(Plan& plan, const std::string& host = "",
                                                    const std::function<bool()>& given_up = {});
 
-/// Makes a servo on the plan's open devices; null: opens them, owned by this process.
+/// Makes a servo that uses the plan's open devices. If `devices` is null, opens the devices, which
+/// this process then owns.
 std::unique_ptr<servo::Servo> make_servo(const Plan& plan,
                                          std::unique_ptr<devices::DeviceGroup> devices = nullptr);
 

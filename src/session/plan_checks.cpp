@@ -28,19 +28,20 @@
 namespace dihaptic::session {
 namespace {
 
-/// The origin of a setting, for messages.
+/// Returns where a setting comes from, for use in messages.
 Place place_of(const Plan& plan, const std::string& setting) {
     const auto origin = plan.origins.find(setting);
     return {origin == plan.origins.end() ? "" : origin->second, 0};
 }
 
-/// Whether a device has reported its abilities, or its rig describes them completely.
+/// Whether a device has reported its capabilities, or the rig describes them completely.
 bool is_known(const frame::DeviceInfo& info) {
     return std::isfinite(info.peak_force);
 }
 
-/// Converts a share of the devices' calm maximum to SI units. The weakest device decides, since all
-/// fingers have the same coupling. The setting is then treated as if given in SI units.
+/// Converts a setting given as a share of the devices' calm maximum to SI units. The weakest device
+/// determines the result, since all fingers have the same coupling. Afterwards, the setting is
+/// treated as if it had been given in SI units.
 std::optional<double> of_maximum(Plan& plan, const std::string& name, Quantity quantity,
                                  std::optional<double>& share,
                                  std::optional<double> frame::DeviceInfo::*maximum,
@@ -79,11 +80,12 @@ void resolve_shares(Plan& plan, Diagnostics& diagnostics) {
         coupling.damping = *c;
 }
 
-/// Warns of a stiffness at which the loop might not be calm. The limit is that of passivity: below
-/// it no hand makes the loop shake; above it, some do (bench grasp measures the practical limit).
+/// Warns about a stiffness at which the loop might not be calm. The limit is the passivity limit:
+/// below it, no hand can make the loop shake; above it, some hands can (`bench grasp` measures the
+/// practical limit).
 void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
     const frame::CouplingSettings& coupling = plan.settings.coupling;
-    if (coupling.stiffness_share) return;  // a share of a maximum that is not yet known
+    if (coupling.stiffness_share) return;  // a share of a maximum that is not known yet
     const double h = plan.settings.step();
     const Place place = place_of(plan, "coupling.stiffness");
     for (const frame::DeviceInfo& info : plan.devices) {
@@ -126,9 +128,9 @@ void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns of too much damping. A damper that absorbs more than the handle's momentum in a tick
-/// throws the handle back: with v the speed at the tick, v' = (1 - c T / m) v grows when c > 2 m /
-/// T.
+/// Warns about too much damping. A damper that absorbs more than the handle's momentum within one
+/// tick throws the handle back: the speed v at one tick becomes v' = (1 - c T / m) v at the next,
+/// which grows in magnitude when c > 2 m / T.
 void check_damping(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.settings.coupling.damping) return;
     for (const frame::DeviceInfo& info : plan.devices) {
@@ -144,7 +146,7 @@ void check_damping(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns of settings that do not apply to a point proxy.
+/// Warns about settings that do not apply to point proxies.
 void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
     if (!any_finger(plan, scene::ProxyKind::point)) return;
     if (plan.settings.coupling.kind != frame::CouplingKind::implicit &&
@@ -166,7 +168,7 @@ void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns of a patch that a task requests but the rig lacks.
+/// Warns about a patch that a task requests but that the rig does not have.
 void check_patch(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task || plan.rig.patch) return;
     for (const task::State& state : plan.task->task.states) {
@@ -177,7 +179,7 @@ void check_patch(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns of actions and items that are impossible or invisible in a headset.
+/// Warns about actions and items that are impossible or invisible in a headset.
 void check_headset(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task || !plan.rig.headset) return;
     for (const task::State& state : plan.task->task.states) {
@@ -190,7 +192,8 @@ void check_headset(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// A dead-man switch on a finger that the scene lacks is an error: it could not be held.
+/// Reports an error if the dead-man switch is assigned to a finger that is not in the scene, since
+/// such a switch could not be held.
 void check_dead_man(const Plan& plan, Diagnostics& diagnostics) {
     const std::string& finger = plan.settings.safety.dead_man_finger;
     const std::vector<std::string> fingers = scene::finger_names(plan.scene);
@@ -202,11 +205,11 @@ void check_dead_man(const Plan& plan, Diagnostics& diagnostics) {
                                   fmt::join(fingers, ", ")));
 }
 
-/// Warns of a force limit above a device's own peak, which is then the effective limit.
+/// Warns about a force limit above the peak force of a device, which is then the effective limit.
 void check_limits(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.settings.safety.max_force) return;
     for (const frame::DeviceInfo& info : plan.devices) {
-        const double peak = info.peak_force / info.scale;  // force in the hand
+        const double peak = info.peak_force / info.scale;  // peak force felt by the hand
         if (*plan.settings.safety.max_force <= peak) continue;
         diagnostics.warning(
             place_of(plan, "safety.max_force"), "safety.max_force",
@@ -241,11 +244,12 @@ void check_grip(const Plan& plan, Diagnostics& diagnostics) {
         "Make it lighter: its weight cannot be rendered.");
 }
 
-/// An object to be lifted in the task's trials, with its weight and friction there.
+/// An object to be lifted in the task's trials, with the weight and friction that it has in those
+/// trials.
 struct Lifting {
     std::string what;  // description
     double weight;     // [N]
-    double friction;   // coefficient with the most slippery finger
+    double friction;   // friction coefficient with the most slippery finger
 };
 
 std::vector<Lifting> liftings(const Plan& plan) {
@@ -290,7 +294,7 @@ std::vector<Lifting> liftings(const Plan& plan) {
     return out;
 }
 
-/// Warns of objects that two fingers cannot hold with these devices, however hard they pinch.
+/// Warns about objects that two fingers cannot hold with these devices, however hard they pinch.
 void check_liftings(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task || plan.scene.fingers.size() != 2 || plan.scene.gravity.norm() == 0) return;
     double peak = std::numeric_limits<double>::infinity();
@@ -322,7 +326,7 @@ void check_liftings(const Plan& plan, Diagnostics& diagnostics) {
     warn(continuous, "can sustain", "after some seconds", for_long);
 }
 
-/// Warns of a trial that waits for a trigger when the rig has no line for one.
+/// Warns about trials that wait for a trigger when the rig has no trigger line.
 void check_triggers(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task) return;
     for (const outlets::OutletConfig& outlet : plan.rig.outlets) {
@@ -342,7 +346,7 @@ void check_triggers(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns of a wall in a wrong position, where it would push constantly.
+/// Warns about a wall placed so that it would push all the time.
 void check_wall(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.rig.wall) return;
     const Eigen::AlignedBox3d box = plan.rig.wall->box();
@@ -377,7 +381,7 @@ void check_wall(const Plan& plan, Diagnostics& diagnostics) {
         remedy);
 }
 
-/// Whether the perturbation only holds movements in a plane.
+/// Whether the perturbation does nothing except keep movements in a plane.
 bool is_plane(const task::PerturbationSpec& spec) {
     bool out = true;
     spec.each_effect([&](const auto& effect) {
@@ -405,7 +409,7 @@ bool is_computed(const task::Task& task, const std::string& name) {
            std::any_of(task.rounds.begin(), task.rounds.end(), in);
 }
 
-/// Warns of trials that their measures will misrepresent.
+/// Warns about trials whose measures will be misleading.
 void check_measures(const task::TaskPlan& plan, Diagnostics& diagnostics) {
     for (const task::Block& block : plan.task.blocks) {
         if (block.kind != task::TrialKind::baseline) continue;
@@ -442,7 +446,7 @@ void check_measures(const task::TaskPlan& plan, Diagnostics& diagnostics) {
                         "Measure before the target, e.g. at its edge.");
 }
 
-/// The columns that a task names itself.
+/// Returns the names of the columns that the task itself defines.
 std::vector<std::string> columns_named_by(const task::Task& task) {
     std::vector<std::string> out;
     for (const Table::Column& column : task::own_columns(task)) out.push_back(column.name);
@@ -456,7 +460,7 @@ std::vector<std::string> columns_named_by(const task::Task& task) {
     return out;
 }
 
-/// Names that the columns named by a task must not have, each with the reason.
+/// Names that a task must not give to its columns, each with the reason.
 std::map<std::string, const char*> taken_names() {
     std::map<std::string, const char*> out;
     for (const char* name : analysis::kEventColumns)

@@ -1,4 +1,4 @@
-// Which proxies a plan's fingers have.
+// Determines which proxies a plan's fingers have.
 #pragma once
 
 #include <algorithm>

@@ -13,10 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kBytesPerFrame = 450;  // for two fingers
+constexpr double kBytesPerFrame = 450;  // size of a frame with two fingers
 constexpr double kHour = 3600;          // [s]
 constexpr double kGigabyte = 1e9;
-constexpr double kLeastHours = 2;  // least recording time for which the disk must have room
+constexpr double kLeastHours = 2;  // minimum recording time for which the disk must have room
 
 Finding devices_of(const Plan& plan) {
     std::set<std::string> models;

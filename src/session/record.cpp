@@ -15,7 +15,7 @@ std::vector<std::string> closing_notes(const Recorded& session, const Plan& plan
     for (const std::string& what : session.undecided) out.push_back("WARNING: " + what);
     const analysis::SessionFigures& figures = session.figures;
     uint32_t told = figures.status & ~(kPaused | kResumed | kSoftStarted);
-    // a stop by the operator has already been reported as the fault
+    // the fault already reports that the operator stopped the session
     if (figures.ticks_with(kStopped) > 0) told &= ~(kStopped | kForceOff);
     for_each_status(told, [&](Status bit) {
         const StatusRow& row = describe(bit);

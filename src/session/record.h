@@ -1,5 +1,4 @@
-// Records a session: runs a plan, makes all files of the session, and collects the messages about
-// it.
+// Records a session: runs a plan, writes all files of the session, and collects messages about it.
 #pragma once
 
 #include <string>
@@ -10,20 +9,22 @@
 
 namespace dihaptic::session {
 
-/// A finished session, with all of its files.
+/// A finished session whose files are complete.
 struct Recorded : RunResult {
     analysis::SessionFigures figures;
-    /// Messages to the operator, with remedies: one line each, which starts with WARNING or note.
+    /// Messages to the operator, with remedies. Each is a single line that starts with WARNING or
+    /// note.
     std::vector<std::string> notes;
 
-    /// Whether the session was completed, and the felt forces were as planned.
+    /// Whether the session was completed and the forces felt were as planned.
     bool good() const { return !interrupted && !figures.failed(); }
 };
 
-/// Receives the share of the session's files that is complete, from 0 on, and the session's folder.
+/// Called while the session's files are being written, with the session's folder and the fraction
+/// of the files that is complete, starting from 0.
 using Finishing = std::function<void(const std::string& folder, double share)>;
 
-/// Runs a session like run_session(), and makes its files. Throws Error when this fails; data
+/// Runs a session like run_session(), then writes its files. Throws Error when this fails; the data
 /// recorded until then remain and can be recovered.
 Recorded record(const Plan& plan, RunOptions options, const std::atomic<bool>& stop,
                 const Progress& running = {}, const Finishing& finishing = {},

@@ -21,7 +21,8 @@ std::string file_of(const std::string& folder) {
     return folder + "/rehearsal.yaml";
 }
 
-/// The first value in which two documents differ: "task.yaml, states, 2, name: a there, b here".
+/// Describes the first value in which two documents differ: "task.yaml, states, 2, name: a there, b
+/// here".
 std::string difference(const Node& there, const Node& here, const std::string& path) {
     const auto inner = [&](const std::string& key) {
         return path.empty() ? key : path + ", " + key;
@@ -53,7 +54,7 @@ std::string difference(const Node& there, const Node& here, const std::string& p
     return "";
 }
 
-/// Whether a folder contains people.
+/// Whether a folder contains the folders of simulated people.
 bool has_people(const std::string& folder) {
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (is_there((entry.path() / "person.yaml").string())) return true;
@@ -81,7 +82,7 @@ Rehearsal rehearsal_of(const Plan& plan, Node population) {
     const TemporaryFolder scratch;
     const auto folder = recording::SessionFolder::create(scratch.path(), "inputs");
     for (const recording::InputFile& input : freeze_inputs(plan, folder)) {
-        if (input.file == "trial-list.csv") continue;  // differs from person to person
+        if (input.file == "trial-list.csv") continue;  // this file differs from person to person
         const bool text = fs::path(input.file).extension() == ".yaml";
         out.inputs.set(input.file,
                        text ? read_yaml(folder.file(input.file)) : Node::of(input.checksum));
@@ -109,7 +110,7 @@ std::string difference(const Rehearsal& there, const Rehearsal& here) {
 }
 
 std::string difference(const Node& there, const Node& here) {
-    // through text, so that numbers from a file and from memory compare equal
+    // compared as text, so that a number read from a file equals the same number in memory
     return difference(parse_yaml(to_yaml(there), "there"), parse_yaml(to_yaml(here), "here"), "");
 }
 
@@ -123,7 +124,7 @@ void claim(const std::string& folder, const Rehearsal& rehearsal) {
                         "Choose another folder (--out FOLDER), or remove this one.");
         }
         if (there.asked == rehearsal.asked)
-            return;  // as in the shards of a cluster after the first
+            return;  // e.g. for all shards of a cluster job after the first
     }
     Rehearsal copy = rehearsal;
     write_file(to_yaml(write_fields(copy)), file_of(folder));

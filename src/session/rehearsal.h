@@ -1,6 +1,7 @@
-// The identity of a rehearsal, in the file rehearsal.yaml of the folder with its people: sessions
-// of a different experiment, seed, population or program are never added to it. The file also
-// contains the request, from which `dihaptic collect` works out which people are missing.
+// The identity of a rehearsal, stored as rehearsal.yaml in the folder that contains its simulated
+// people. Sessions with a different experiment, seed, population or program are never added to that
+// rehearsal. The file also contains the request, from which `dihaptic collect` works out which
+// people are missing.
 #pragma once
 
 #include <array>
@@ -12,18 +13,19 @@
 namespace dihaptic::session {
 
 inline constexpr int kMostPeople = 9999;
-/// First columns of the tables that `dihaptic collect` makes: they identify the person of a row.
+/// First columns of the tables that `dihaptic collect` writes: they identify the person to whom a
+/// row belongs.
 inline constexpr std::array kCollectedColumns = {"seed", "group", "id"};
-/// Further columns of a study's tables.
+/// Additional columns in the tables of a study.
 inline constexpr std::array kStudyColumns = {"study_number", "study_session", "study_condition",
                                              "study_version"};
 
-/// The request of the latest command. It is not part of the rehearsal's identity.
+/// What the latest command requested. This is not part of the rehearsal's identity.
 struct Asked {
-    int people =
-        0;  ///< number of people, from the first on; 0: unknown, in a folder of an older program
-    int shards = 1;       ///< number of parts among which these people are distributed in turn
-    std::string command;  ///< command for all of them, from any folder; --shard may be added
+    int people = 0;  ///< number of people, starting with the first; 0: unknown, because an older
+                     ///< program made the folder
+    int shards = 1;  ///< number of shards among which these people are distributed in turn
+    std::string command;  ///< command that simulates them, from any folder; --shard may be added
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -40,8 +42,8 @@ struct Rehearsal {
     std::string seed;
     Asked asked;
     Node population;
-    std::string between;  ///< program that controls the trials; empty: only the file does
-    Node inputs;          ///< by file, as frozen by a session: everything that affects the result
+    std::string between;  ///< program that controls the trials; empty if only the file does
+    Node inputs;          ///< frozen inputs that affect the result, indexed by file name
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -55,23 +57,24 @@ struct Rehearsal {
     }
 };
 
-/// Identifier of the n-th person, counted from 1.
+/// ID of the n-th person, counted from 1.
 std::string person_id(int n);
-/// The n-th person's shard among `shards`, both counted from 1.
+/// Which of `shards` shards simulates the n-th person; both are counted from 1.
 int shard_of(int n, int shards);
 
-/// `plan`: has no simulated person yet. `population`: source of the rehearsal's people.
+/// Returns the identity of a rehearsal. `plan` must not have a simulated person yet. `population`
+/// is the population from which the people are drawn.
 Rehearsal rehearsal_of(const Plan& plan, Node population);
-/// Reads rehearsal.yaml in a folder. Throws Error when it is missing or cannot be read.
+/// Reads rehearsal.yaml in a folder. Throws Error when the file is missing or cannot be read.
 Rehearsal read_rehearsal(const std::string& folder);
-/// The first difference between two rehearsals, in words; "" if there is none. `there`: the
-/// folder's rehearsal.
+/// Describes the first difference between two rehearsals; "" if there is none. `there` is the
+/// rehearsal stored in the folder.
 std::string difference(const Rehearsal& there, const Rehearsal& here);
-/// The first value in which two documents differ, in words; "" if there is none.
+/// Describes the first value in which two documents differ; "" if there is none.
 std::string difference(const Node& there, const Node& here);
 
-/// Makes the folder, or checks that it holds the same rehearsal, and notes the request. Throws an
-/// Error that names the difference when the folder holds another one.
+/// Creates the folder, or checks that it contains the same rehearsal, and stores the request. If
+/// the folder contains a different rehearsal, throws an Error that names the difference.
 void claim(const std::string& folder, const Rehearsal& rehearsal);
 
 }  // namespace dihaptic::session

@@ -33,7 +33,7 @@ class Look {
         check_person();
         check_inputs();
         for (const char* name : {"trials.csv", "lifts.csv"}) check_cells(name);
-        // another version may order trials differently
+        // a different program version may order the trials differently
         const bool own = info_.program == recording::program_version();
         if (problems_.empty() && own && trials_left(folder_.path()))
             refuse("trials.csv", "",
@@ -64,7 +64,8 @@ class Look {
                    fmt::format("is {}: not all trials were done", enum_name(info_.state)));
     }
 
-    /// A simulated person's traits are an input like any other, with a checksum.
+    /// Checks person.yaml. A simulated person's traits are an input like any other, with a
+    /// checksum.
     void check_person() {
         if (!is_input("person.yaml"))
             return refuse("session.yaml", "inputs",
@@ -83,7 +84,7 @@ class Look {
                info_.inputs.end();
     }
 
-    /// Inputs common to all people of a rehearsal are in rehearsal.yaml.
+    /// Checks the inputs that all people of a rehearsal share; these are listed in rehearsal.yaml.
     void check_inputs() {
         for (const recording::InputFile& input : info_.inputs) {
             if (input.file == "person.yaml" || input.file == "trial-list.csv") continue;
@@ -125,7 +126,7 @@ class Look {
             }
         } catch (const Error& e) {
             if (!recording::is_sealed(info_))
-                add(e.problems());  // otherwise its seal has reported it
+                add(e.problems());  // if it is sealed, its seal has reported it
         }
     }
 

@@ -12,7 +12,7 @@ namespace {
 
 using Wall = std::chrono::steady_clock;
 
-/// Equality to the bit, so that a NaN equals itself.
+/// Compares bit by bit, so that a NaN equals itself.
 bool same(const frame::Frame& frame, const frame::Frame& recorded) {
     const std::vector<double> a = outcome_of(frame);
     const std::vector<double> b = outcome_of(recorded);
@@ -20,7 +20,7 @@ bool same(const frame::Frame& frame, const frame::Frame& recorded) {
            std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
-/// Data from the log go to the scene's fingers and bodies, and their devices, one to one.
+/// Checks that the log's fingers, bodies and devices match the scene's one to one.
 void check(const recording::LogHead& head, const scene::Scene& scene, const std::string& file) {
     recording::check_fits(head, scene, file);
     const auto holds = [](const recording::DeviceRecord& device, const std::string& finger) {
@@ -33,7 +33,7 @@ void check(const recording::LogHead& head, const scene::Scene& scene, const std:
                 "Restore this session's own log.");
 }
 
-/// The session's inputs, from its own files.
+/// The inputs of the session, read from its own files.
 struct Inputs {
     scene::Scene scene;
     rig::Rig rig;
@@ -53,7 +53,7 @@ Inputs read_inputs(const recording::SessionFolder& folder, const recording::LogH
     return out;
 }
 
-/// The devices' reports in the recorded tick.
+/// Restores the devices' readings of the recorded tick.
 void read_again(const frame::Frame& recorded, const recording::LogHead& head,
                 std::span<devices::Reading> readings) {
     auto turn = recorded.turns.begin();
@@ -67,11 +67,11 @@ void read_again(const frame::Frame& recorded, const recording::LogHead& head,
     }
 }
 
-/// The orders of the session's owner in that tick.
+/// Restores the orders that the director gave in the recorded tick.
 void order_again(const frame::Frame& recorded, frame::Commands& commands) {
     commands.force_off = (recorded.status & kStopped) != 0;
     commands.rest = (recorded.status & kPaused) != 0;
-    // its duration is lost, but makes no difference
+    // the duration was not recorded, but does not matter
     commands.abandoned = (recorded.status & kAbandoned) != 0 ? 1 : 0;
     commands.knobs = recorded;
     commands.trial = recorded.trial;
@@ -79,12 +79,12 @@ void order_again(const frame::Frame& recorded, frame::Commands& commands) {
     commands.task = recorded.task;
 }
 
-/// Describes gaps in the log, and whether the session's state accounts for them.
+/// Describes gaps in the log and checks whether the session's state explains them.
 void judge_log(recording::RawLogReader& log, const recording::SessionInfo& info,
                ReplayResult& result) {
-    const recording::LogHealth& health = log.read_to_end();  // to find losses after a gap
+    const recording::LogHealth& health = log.read_to_end();  // finds losses after a gap, too
     result.log = recording::describe(health, info.ticks, log.head().planned());
-    // a recovered session's log is known to lack its end mark; for others this must be reported
+    // the log of a recovered session may lack its end mark; any other log must have the mark
     const bool endless = info.state == recording::SessionState::recovered && !health.complete;
     result.damaged = !health.gaps.empty() || !health.strays.empty() ||
                      health.last_tick + 1 < info.ticks || (!endless && health.damaged(info.ticks));
@@ -129,7 +129,7 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
     const recording::SessionInfo info = folder.read_info(head, diagnostics);
     ReplayResult result;
     const Inputs inputs = read_inputs(folder, head, diagnostics);
-    // a replay uses no tables
+    // a replay does not use the tables
     diagnostics.add(recording::broken_own_seal(folder, info, Severity::warning));
     result.warnings = diagnostics.problems();
     result.version = recording::describe_version(log.health());

@@ -24,11 +24,12 @@ namespace fs = std::filesystem;
 using recording::Mover;
 using recording::SessionState;
 
-/// In the folder of a resumed session: file with the path of the session that resumes it.
+/// Name of the file, in the folder of a resumed session, that contains the path of the session that
+/// resumed it.
 constexpr const char* kResumedAs = "resumed-as";
 
-/// Restores the simulated person of that session, with the same traits; the person's learning is
-/// lost.
+/// Puts the session's simulated person back into the plan, with the same traits. What the person
+/// had learned is lost.
 void sit_down_again(Plan& plan, const recording::SessionFolder& folder) {
     const std::string file = folder.file("person.yaml");
     if (!is_there(file)) {
@@ -62,7 +63,7 @@ const char* who_goes_on(Mover mover) {
     }
 }
 
-/// The rows of a table; none if it is missing or cannot be read.
+/// Returns the rows of a table; empty if the table is missing or cannot be read.
 template <class Row>
 std::vector<Row> rows_in(const std::string& file) {
     try {
@@ -73,7 +74,7 @@ std::vector<Row> rows_in(const std::string& file) {
     }
 }
 
-/// Number of trials with at least one attempt that ended, even if the trial must be repeated.
+/// Number of trials with at least one attempt that ended, including trials that must be repeated.
 size_t trials_done(const recording::SessionFolder& folder) {
     std::set<int> done;  // a trial may have several attempts
     for (const rows::TrialRow& row : rows_in<rows::TrialRow>(folder.file("trials.csv"))) {
@@ -82,7 +83,7 @@ size_t trials_done(const recording::SessionFolder& folder) {
     return done.size();
 }
 
-/// Whether no program is recording or recovering the session at this moment.
+/// Whether no program is recording or recovering the session at present.
 bool at_rest(const recording::SessionFolder& folder) {
     try {
         const recording::SessionLock lock(folder);
@@ -92,8 +93,8 @@ bool at_rest(const recording::SessionFolder& folder) {
     }
 }
 
-/// Whether the session has trials left. A session whose files were changed since it ended counts as
-/// having some: rest_of() then reports the change and the remedy.
+/// Whether the session has trials left. If its files were changed after the session ended, returns
+/// true, so that rest_of() can report the change and the remedy.
 bool may_go_on(const recording::SessionFolder& folder) {
     try {
         return trials_left(folder.path());
@@ -102,7 +103,7 @@ bool may_go_on(const recording::SessionFolder& folder) {
     }
 }
 
-/// The session if some of its trials are not done; otherwise nullopt.
+/// Returns the session if some of its trials are not done; otherwise nullopt.
 std::optional<Unfinished> unfinished(const recording::SessionFolder& folder,
                                      const recording::SessionInfo& info) {
     if (!is_there(folder.file("task.yaml")) || info.state == SessionState::complete ||
@@ -115,7 +116,8 @@ std::optional<Unfinished> unfinished(const recording::SessionFolder& folder,
     return Unfinished{folder.path(), info.started, trials_done(folder), list.size(), info.moved_by};
 }
 
-/// The session in the folder `parent` that resumes the one with this name; "" if there is none.
+/// Returns the session in the folder `parent` that resumes the session called `name`; "" if there
+/// is none.
 std::string successor(const std::string& name, const std::string& parent) {
     std::error_code failed;
     for (fs::directory_iterator i(parent, failed), end; !failed && i != end; i.increment(failed)) {
@@ -192,7 +194,7 @@ Rest rest_of(const std::string& session, Seat seat, const std::function<void(dou
     out.plan = make_rest(session, seat, out.before);
     if (out.plan.moved_by.mover == Mover::simulated_person) {
         sit_down_again(out.plan, folder);
-        out.plan.moved_by.seed = out.before.moved_by.seed;  // the person was drawn with it
+        out.plan.moved_by.seed = out.before.moved_by.seed;  // the person was drawn with this seed
     }
     return out;
 }
@@ -201,7 +203,7 @@ std::vector<Unfinished> find_unfinished(const std::string& parent, const std::st
                                         const std::string& participant) {
     std::vector<Unfinished> out;
     std::set<std::string> gone_on_with;
-    std::error_code failed;  // without such a folder there are no sessions
+    std::error_code failed;  // if the folder does not exist, there are no sessions
     for (fs::directory_iterator i(parent, failed), end; !failed && i != end; i.increment(failed)) {
         try {
             const auto folder = recording::SessionFolder::open(i->path().string());

@@ -1,5 +1,5 @@
-// Resumes a session with unfinished trials: at the right trial, with the same inputs, and with the
-// same mover of the hand. A script never finishes a person's trials.
+// Resumes a session that has unfinished trials: at the right trial, with the same inputs, and with
+// the same mover of the hand. A script never finishes the trials of a person.
 #pragma once
 
 #include <functional>
@@ -10,35 +10,36 @@
 
 namespace dihaptic::session {
 
-/// The rest of a session.
+/// The remaining part of a session.
 struct Rest {
     Plan plan;
-    recording::SessionInfo before;  ///< info of the session to be resumed
-    std::vector<Problem> warnings;  ///< from recovering the session, if it was killed
+    recording::SessionInfo before;  ///< session.yaml of the session to be resumed
+    std::vector<Problem> warnings;  ///< warnings from recovering the session, if it was killed
 
-    /// Two lines: the session to be resumed, with its number of attempts; and the mover of the
-    /// hand.
+    /// Returns two lines: the session to be resumed, with its number of attempts; and the mover of
+    /// the hand.
     std::string describe() const;
 };
 
-/// Prepares the rest of a session. Recovers the session first if it was killed, reporting progress
+/// Prepares the rest of a session. If the session was killed, recovers it first, reporting progress
 /// to `progress`. Throws Error when no trial is left, when the session has no trials, or when the
-/// mover of its hand is unknown or not available here.
+/// mover of its hand is unknown or cannot be used here.
 Rest rest_of(const std::string& session, Seat seat, const std::function<void(double)>& progress);
 
-/// Keeps other programs from resuming this session, so that the remaining trials are done only
-/// once. Throws Error when another program is resuming it, or when a session has already resumed
-/// it: one named in its folder, or one next to it or in the folder `out`.
+/// Locks the session so that no other program can resume it, and the remaining trials are done only
+/// once. Throws Error when another program is resuming the session, or when another session has
+/// already resumed it: a session named in its folder, in the same parent folder, or in the folder
+/// `out`.
 recording::SessionLock claim(const std::string& session, const std::string& out);
-/// Notes in a session's folder the session that resumes it. Throws Error when this fails.
+/// Stores, in the folder of `session`, which session resumes it. Throws Error when this fails.
 void note_successor(const std::string& session, const std::string& next);
 
-/// How far a session has come.
+/// How much of a session has been done.
 struct Standing {
-    bool running = false;   ///< a program is recording or recovering it
-    bool killed = false;    ///< its program ended before the session did: it must be recovered
-    bool complete = false;  ///< nothing is left to do
-    size_t done = 0;        ///< trials with an attempt that ended
+    bool running = false;   ///< whether a program is recording or recovering the session
+    bool killed = false;    ///< whether its program ended too early, so that it needs recovery
+    bool complete = false;  ///< whether nothing is left to do
+    size_t done = 0;        ///< number of trials with an attempt that ended
     size_t trials = 0;
 };
 Standing standing_of(const recording::SessionFolder& folder, const recording::SessionInfo& info);
@@ -47,14 +48,14 @@ Standing standing_of(const recording::SessionFolder& folder, const recording::Se
 struct Unfinished {
     std::string folder;
     std::string started;  ///< ISO 8601
-    size_t done = 0;      ///< trials with an attempt that ended; 0 if killed and not yet recovered
+    size_t done = 0;      ///< number of trials with an attempt that ended; 0 if not yet recovered
     size_t trials = 0;
     recording::MovedBy moved_by;
 };
 
-/// Sessions in the folder `parent`, of that participant and experiment (title), that ended or were
-/// killed before all trials were done and that no other session resumes; newest first. Leaves out
-/// sessions that are running or cannot be read.
+/// Returns the sessions in the folder `parent`, with this participant and experiment title, that
+/// ended or were killed before all trials were done and that no other session resumes; newest
+/// first. Sessions that are running or cannot be read are left out.
 std::vector<Unfinished> find_unfinished(const std::string& parent, const std::string& title,
                                         const std::string& participant);
 

@@ -8,7 +8,8 @@
 namespace dihaptic::session {
 namespace {
 
-/// A limit as a number, so that two can be compared. An unset value means no limit.
+/// A limit converted to a number, so that two limits can be compared. An unset value means that
+/// there is no limit.
 struct Limit {
     std::string name;
     Field field;
@@ -16,7 +17,7 @@ struct Limit {
     std::string shown;
 };
 
-/// Collects the numbers and choices of SafetySettings.
+/// Visits SafetySettings and collects its numbers and choices.
 class Limits {
   public:
     explicit Limits(frame::SafetySettings settings) { settings.visit(*this); }
@@ -44,13 +45,13 @@ class Limits {
     std::vector<Limit> limits_;
 };
 
-/// The limits that a rig sets, with the origin of each.
+/// The limits that a rig sets, with the origin of each limit.
 struct RigLimits {
     frame::SafetySettings allowed;
     Origins set_by;
     bool real;
 
-    /// The origin of the rig's limit on this setting; nullopt if it has none.
+    /// Returns the origin of the rig's limit on this setting; nullopt if the rig sets none.
     std::optional<std::string> limit_of(const std::string& name) const {
         const auto found = set_by.find("safety." + name);
         if (found != set_by.end()) return found->second;

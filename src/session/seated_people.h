@@ -1,5 +1,5 @@
-// The contents of person.yaml: the traits of a session's simulated person, and of the partner in a
-// task for two.
+// The contents of person.yaml: the traits of a session's simulated person and, in a task for two,
+// those of the partner.
 #pragma once
 
 #include <optional>

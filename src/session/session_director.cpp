@@ -73,7 +73,7 @@ void SessionDirector::be_steered(const frame::Frame& last, frame::Commands& comm
         while (const std::optional<char> key = options_.keys->pop()) task_->press(*key);
     }
     for (Listener* listener : listeners_) listener->steer(steering);
-    // a simulated session receives a trigger once per second
+    // a simulated session receives one trigger per second
     if (task_ && !real_ && steering.is_once_a_second())
         task_->trigger(task::TaskDirector::kAnyTrigger);
 }
@@ -84,7 +84,7 @@ void SessionDirector::direct_task(const frame::Frame& last, std::span<const fram
         (*task_)(last, handles, commands);
         return;
     }
-    // with the force off there are no trials: the current one is over
+    // while force is off, there are no trials: the current one is over
     commands.trial = last.trial;
     commands.phase = last.phase;
     commands.task.attempt = last.task.attempt;

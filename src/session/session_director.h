@@ -1,5 +1,5 @@
-// The director of a session (frame/orders.h): in each tick it gives the orders of the trials or,
-// without trials, of the phases, together with those of the operator, the simulated hand, the
+// The director of a session (frame/orders.h). In each tick it combines the orders of the trials
+// (or, if there are no trials, of the phases) with those of the operator, the simulated hand, the
 // triggers and the watching thread.
 #pragma once
 
@@ -17,28 +17,29 @@ namespace dihaptic::session {
 
 class SessionDirector {
   public:
-    /// Prepares everything for the ticks, since they allocate nothing. All that the arguments refer
-    /// to must outlive the director.
+    /// Prepares everything that the ticks need, since ticks do not allocate memory. All objects to
+    /// which the arguments refer must outlive the director.
     SessionDirector(const Opening& session, const std::atomic<bool>& stop,
                     std::vector<Listener*> listeners);
 
     void operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
                     frame::Commands& commands);
 
-    /// Call between two ticks: a running trial starts again.
+    /// Must be called between two ticks; makes a running trial start again.
     void interrupt() {
         if (task_) task_->interrupt();
     }
-    /// Share of the trials that are done; unset without trials. May be called from any thread.
+    /// Fraction of the trials that are done; unset if there are no trials. May be called from any
+    /// thread.
     std::optional<double> share() const noexcept {
         return task_ ? std::optional(task_->share()) : std::nullopt;
     }
-    /// States that formulas of trials were kept within their bounds; "" if none was.
+    /// States which trial formulas were limited to their bounds; "" if none were.
     std::string bounded() const;
     bool trials_left() const noexcept { return share().value_or(1) < 1; }
-    /// Number of trials that an exit left out because it ended the session.
+    /// Number of trials that were left out because a transition ended the session.
     size_t left_out() const noexcept { return task_ ? task_->left_out() : 0; }
-    /// Describes the wait that was so long that it ended the session; "" if there was none.
+    /// Describes the wait that ended the session because it took too long; "" if there was none.
     std::string endless_wait(const std::vector<recording::PhaseInfo>& phases) const;
 
   private:

@@ -36,7 +36,8 @@ double since(Wall::time_point begin) {
     return std::chrono::duration<double>(Wall::now() - begin).count();
 }
 
-/// Longest session: a task that has run for longer is waiting for an event that does not come.
+/// Longest duration of a session: a task that runs for longer must be waiting for an event that
+/// never comes.
 constexpr Time kLongest = std::chrono::hours(12);
 constexpr Time kLongestTimed = std::chrono::hours(1);
 
@@ -47,7 +48,7 @@ std::vector<recording::PhaseInfo> phases_of(const hand::Driver& driver) {
     return out;
 }
 
-/// Describes the abilities of the session's devices, by finger.
+/// Describes the capabilities of the session's devices, in the order of the fingers.
 std::vector<recording::DeviceRecord> records_of(const servo::Servo& servo,
                                                 const scene::Scene& scene) {
     std::vector<recording::DeviceRecord> out;
@@ -60,7 +61,7 @@ std::vector<recording::DeviceRecord> records_of(const servo::Servo& servo,
     return out;
 }
 
-/// Throws Error when facts about a participant could not be read back from the session's record.
+/// Throws Error if facts about a participant could not be read back from the session's record.
 void check_words(const recording::Participant& participant, const char* what) {
     const std::string& id = participant.id;
     check_text(id, what);
@@ -75,7 +76,7 @@ void check_words(const recording::Participant& participant, const char* what) {
     check_text(participant.handedness, "handedness");
 }
 
-/// Throws Error when an entry for the session's record could not be read back from it.
+/// Throws Error if an entry for the session's record could not be read back from it.
 void check_words(const Plan& plan, const RunOptions& options) {
     check_words(options.participant, "participant");
     check_words(options.partner, "partner");
@@ -91,8 +92,9 @@ void check_words(const Plan& plan, const RunOptions& options) {
     check_text(plan.title, "title", Lines::several);
 }
 
-/// On the virtual clock, a session that is run again gives the same file with the same identity,
-/// which is computed from all of the session's inputs. On the real clock it is random.
+/// Returns the identity of a session. On the virtual clock, it is computed from all of the
+/// session's inputs, so that repeating a session gives the same files. On the real clock, it is
+/// random.
 std::string identity_of(const recording::Setup& setup, const Plan& plan, bool real) {
     if (real) {
         std::random_device random;
@@ -104,7 +106,8 @@ std::string identity_of(const recording::Setup& setup, const Plan& plan, bool re
     return fmt::format("{:016x}", recording::session_of(std::as_bytes(std::span(text))));
 }
 
-/// Calls `look` about ten times per second from its own thread while it lives, and once at the end.
+/// During its lifetime, calls `look` about ten times per second from a separate thread, and once
+/// more at the end.
 class Watcher {
   public:
     explicit Watcher(const std::function<void()>& look) {
@@ -132,8 +135,8 @@ class Watcher {
     std::thread thread_;
 };
 
-/// Waits for the end of a pause and resumes the servo. If its devices cannot be activated, gives
-/// the reason and waits again. Returns false when the session is to end.
+/// Waits for the end of a pause, then resumes the servo. If the devices cannot be activated,
+/// reports the reason and waits again. Returns false when the session is to end.
 bool wait_to_go_on(servo::Servo& servo, Live& live, const std::atomic<bool>& stop) {
     while (true) {
         while (live.paused && !stop && !live.ended)
@@ -148,8 +151,8 @@ bool wait_to_go_on(servo::Servo& servo, Live& live, const std::atomic<bool>& sto
     }
 }
 
-/// One session, from making its folder to its last note; holds the data shared by the servo's
-/// callbacks.
+/// Runs one session, from the creation of its folder to its last note; holds the data shared by the
+/// servo's callbacks.
 class Run {
   public:
     Run(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
@@ -203,7 +206,7 @@ class Run {
     const Progress& progress_;
     const bool real_;
     const std::string name_;
-    std::optional<recording::SessionLock> earlier_;  // lock on the session that this one resumes
+    std::optional<recording::SessionLock> earlier_;  // lock of the session that this one resumes
     const recording::SessionFolder folder_;
     Live* const live_;
 
@@ -215,8 +218,8 @@ class Run {
     std::vector<std::unique_ptr<Listener>> others_;
     std::vector<Listener*> listeners_;  // log_, others_ and the link to the watching thread
     std::optional<SessionDirector> director_;
-    Time whole_{0};                    // the session is over after this time
-    std::atomic<int64_t> reached_{0};  // session time reached [ns]
+    Time whole_{0};                    // session time at which the session is over
+    std::atomic<int64_t> reached_{0};  // session time reached so far [ns]
 };
 
 RunResult Run::run() {
@@ -236,9 +239,9 @@ RunResult Run::run() {
     return std::move(result_);
 }
 
-/// Makes the folder's first files, and opens the session's resources. If this fails because of a
-/// device, the disk, or an input that has changed meanwhile, the folder is removed: no tick has run
-/// yet.
+/// Writes the folder's first files and opens the session's resources. If this fails because of a
+/// device, the disk, or an input that has changed in the meantime, the folder is removed, since no
+/// tick has run yet.
 void Run::prepare() {
     try {
         describe();
@@ -316,12 +319,12 @@ void Run::describe_task() {
     info_.resumes = plan_.resumes;
 }
 
-/// Opens the record, outlets and devices.
+/// Opens the log, the outlets and the devices.
 void Run::begin() {
     log_ = std::make_unique<Log>(opening_);
     listeners_.push_back(log_.get());
     result_.lock.emplace(folder_);
-    if (real_ || options_.sync > 0) folder_.sync();  // the inputs, before the session begins
+    if (real_ || options_.sync > 0) folder_.sync();  // saves the inputs before the session begins
     listen(open_outlets(opening_));
     listen(show_to_person(opening_));
     servo_->activate();
@@ -331,14 +334,14 @@ void Run::begin() {
     folder_.write_info(info_);
 }
 
-/// Adds a listener; null if the session has nothing for it to do.
+/// Adds a listener; `listener` is null if there is nothing for it to do in this session.
 void Run::listen(std::unique_ptr<Listener> listener) {
     if (!listener) return;
     listeners_.push_back(listener.get());
     others_.push_back(std::move(listener));
 }
 
-/// Opens a listener; if that fails, notes the reason, and the session runs without it.
+/// Opens a listener. If this fails, notes the reason, and the session runs without that listener.
 void Run::try_to_listen(std::unique_ptr<Listener> (*open)(const Opening&)) {
     try {
         listen(open(opening_));
@@ -348,7 +351,7 @@ void Run::try_to_listen(std::unique_ptr<Listener> (*open)(const Opening&)) {
     }
 }
 
-/// Prepares everything before the first tick, since ticks allocate nothing.
+/// Prepares everything before the first tick, since ticks do not allocate memory.
 void Run::make_director() {
     whole_ = plan_.task ? kLongest : from_seconds(plan_.driver->duration());
     result_.timing.reserve(static_cast<size_t>(std::min(whole_, kLongestTimed) / servo_->period()) +
@@ -368,7 +371,7 @@ void Run::take(const frame::Frame& frame) noexcept {
     reached_.store(frame.time.count(), std::memory_order_relaxed);
 }
 
-/// Whether a listener has asked for the session's end.
+/// Whether a listener has requested the end of the session.
 bool Run::asked_to_end() const noexcept {
     return std::ranges::any_of(listeners_, [](const Listener* l) { return l->ends(); });
 }
@@ -380,12 +383,12 @@ void Run::run_ticks() {
     recording::HeadsWriter heads(folder_);
     const Watcher watcher([&] {
         if (progress_) progress_(std::min(1.0, share()));
-        // on the virtual clock a tick may be waiting for the controller
+        // on the virtual clock, a tick may be waiting for the controller's answer
         if (options_.controller != nullptr && stop_) options_.controller->between()->leave();
         if (live_ == nullptr) return;
-        if (asked_to_end()) live_->ended = true;  // even in a pause
+        if (asked_to_end()) live_->ended = true;  // also ends a pause
         while (const auto showing = live_->take_showing()) {
-            if (real_) showings.add(*showing);  // nobody watched a rehearsal in real time
+            if (real_) showings.add(*showing);  // a rehearsal has no viewer in real time
         }
         while (const auto head = live_->take_head()) {
             if (real_) heads.add(*head);
@@ -400,7 +403,7 @@ void Run::run_ticks() {
     }
 }
 
-/// Runs the ticks; if the session is watched, at the requested pace.
+/// Runs the ticks; if somebody watches the session, at the pace that the viewer chose.
 void Run::run_virtual_ticks(const frame::Director& director, const frame::FrameSink& sink) {
     std::optional<Pacing> pacing;
     if (live_ != nullptr) pacing.emplace(*live_, stop_);
@@ -411,13 +414,13 @@ void Run::run_virtual_ticks(const frame::Director& director, const frame::FrameS
     servo::run_virtual(*servo_, director, paced, whole_, stop_, &result_.timing.ticks);
 }
 
-/// Runs the ticks in one go or, if an operator controls the session, in stretches that end at each
+/// Runs the ticks in one go or, if an operator controls the session, in parts that end at each
 /// pause or fault.
 void Run::run_real_ticks(const frame::Director& director, const frame::FrameSink& sink) {
     const auto stuck = [this](const servo::Timing::Stall& stall) {
         if (options_.stuck) options_.stuck(stall_text(stall));
     };
-    const std::atomic<bool> never{false};  // the director stops the session, with a last tick
+    const std::atomic<bool> never{false};  // the director stops the session in a last tick
     Time first{0};
     while (true) {
         servo::run_real(*servo_, director, sink, first, whole_, never, result_.timing, stuck);
@@ -460,7 +463,7 @@ std::string Run::fault_text() const {
         out += " Its driver reports: " + said;
     const bool stopped = fault.kind == haptics::FaultKind::stopped;
     if (!stopped) out += " The last second before the fault is in fault.csv.";
-    if (live_ != nullptr) return out;  // the window states what to do next
+    if (live_ != nullptr) return out;  // the window tells the user what to do next
     if (plan_.task && plan_.resumable) {
         out += fmt::format(" 'dihaptic resume {}' continues with the remaining trials.",
                            shell_file(folder_.path()));
@@ -485,12 +488,12 @@ void Run::close_record() {
 }
 
 void Run::note_how_it_ended() {
-    // an open-ended session, with a mouse or a person, is complete whenever it ends
+    // an open-ended session, moved by a mouse or a person, is complete whenever it ends
     const bool unfinished = plan_.task ? director_->trials_left() : !plan_.open_ended();
     result_.interrupted = stop_.load() || (asked_to_end() && unfinished);
     if (servo_->fault()) {
         result_.fault = fault_text();
-        // a session that waited for a remedy has already noted the fault
+        // if the session waited for a remedy, the fault is already in the notes
         if (info_.notes.empty() || info_.notes.back() != result_.fault)
             info_.notes.push_back(result_.fault);
     }
@@ -508,7 +511,8 @@ void Run::note_how_it_ended() {
     if (result_.timing.pauses > 0) info_.notes.push_back(servo::describe_pauses(result_.timing));
 }
 
-/// The session's state on the disk stays `running` until its other files exist.
+/// Writes the final state. On the disk, the state stays `running` until the session's other files
+/// exist.
 void Run::conclude() {
     if (progress_ && !result_.interrupted) progress_(1);
     info_.ticks = static_cast<int>(result_.ticks + result_.dropped);
@@ -527,7 +531,7 @@ void Run::conclude() {
                                           left_out == 1 ? "was" : "were"));
     }
     folder_.write_info(info_);
-    // a fault ends a session too: dihaptic resume does the remaining trials
+    // a fault also ends a session; `dihaptic resume` does the remaining trials
     const bool cut_short = servo_->fault() && director_->trials_left();
     info_.state = result_.interrupted || cut_short ? recording::SessionState::interrupted
                                                    : recording::SessionState::complete;

@@ -23,7 +23,7 @@ std::string file_of(const study::StudyFile& study) {
     return study.data + "/versions.yaml";
 }
 
-/// All versions of a study.
+/// All versions of a study, as stored in versions.yaml.
 struct Versions {
     std::vector<StudyVersion> versions;
 
@@ -41,7 +41,7 @@ Plan plan_of(const std::string& experiment) {
     return make_plan(request);
 }
 
-/// The frozen inputs of an experiment, without its rig.
+/// Returns the frozen inputs of an experiment, without its rig.
 Node inputs_of(const std::string& experiment) {
     Node out = Node::mapping();
     for (const Node::Entry& entry : rehearsal_of(plan_of(experiment), {}).inputs.entries) {
@@ -50,8 +50,8 @@ Node inputs_of(const std::string& experiment) {
     return out;
 }
 
-/// The recording in a folder. Throws Error when it is not a session of this participant, since a
-/// session that is skipped would be run again.
+/// Returns the recording in a folder. Throws Error if the folder does not contain a session of this
+/// participant: a recording that was ignored would lead to the session being run again.
 study::Visit visit_in(const std::string& path, const study::StudyFile& study, size_t session,
                       const study::Member& member, std::string& resumes) {
     const auto folder = recording::SessionFolder::open_tables(path);
@@ -81,22 +81,22 @@ study::Visit visit_in(const std::string& path, const study::StudyFile& study, si
             standing.killed, standing.done, standing.trials};
 }
 
-/// Gives each recording that resumes another one the start of that one.
+/// For each recording that resumes another one, sets its start to the start of the first recording.
 void begin_with_first(std::vector<std::pair<study::Visit, std::string>>& found) {
     for (auto& [visit, resumes] : found) {
-        for (const auto& [earlier, _] : found) {  // in the order of time
+        for (const auto& [earlier, _] : found) {  // ordered by time
             if (!resumes.empty() && fs::path(earlier.folder).filename() == resumes)
                 visit.started = earlier.started;
         }
     }
 }
 
-/// Recordings of one session, in the order of their start.
+/// Returns the recordings of one session, ordered by start time.
 std::vector<study::Visit> visits_in(const study::StudyFile& study, size_t session,
                                     const study::Member& member) {
     const std::string folder = session_folder(study, member, session);
     std::vector<study::Visit> out;
-    std::vector<std::pair<study::Visit, std::string>> found;  // and the session that each resumes
+    std::vector<std::pair<study::Visit, std::string>> found;  // with the session that each resumes
     std::vector<std::string> paths;
     if (!is_there(folder)) return out;
     std::error_code failed;
@@ -112,7 +112,7 @@ std::vector<study::Visit> visits_in(const study::StudyFile& study, size_t sessio
         auto& [visit, resumes] = found.emplace_back();
         visit = visit_in(path, study, session, member, resumes);
     }
-    // by time, not by name: names have local time
+    // by time, not by name: names contain local times
     std::ranges::sort(found, {},
                       [](const auto& f) { return std::pair(f.first.started, f.first.folder); });
     begin_with_first(found);
@@ -120,7 +120,7 @@ std::vector<study::Visit> visits_in(const study::StudyFile& study, size_t sessio
     return out;
 }
 
-/// Warns of experiments whose names reveal a concealed group to anyone who sees a recording.
+/// Warns about experiments whose names reveal a concealed group to anyone who sees a recording.
 void check_concealed(const study::StudyFile& study, Diagnostics& diagnostics) {
     for (const study::SessionSpec& session : study.sessions) {
         if (!study.allocation.concealed || session.experiment.find("{group}") == std::string::npos)
@@ -132,7 +132,7 @@ void check_concealed(const study::StudyFile& study, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns of groups in which the orders of the conditions do not occur equally often.
+/// Warns about groups in which the orders of the conditions do not occur equally often.
 void check_balance(const study::StudyFile& study, Diagnostics& diagnostics) {
     const int orders = study.orders();
     for (const study::Group& group : study.groups) {
@@ -156,7 +156,7 @@ std::string session_folder(const study::StudyFile& study, const study::Member& m
 recording::InStudy place_in(const study::StudyFile& study, const study::Member& member,
                             size_t session) {
     std::vector<recording::Fact> facts = member.facts;
-    if (study.allocation.concealed)  // groups may be the values of a fact
+    if (study.allocation.concealed)  // groups may be the values of a participant's fact
         std::erase_if(facts, [&](const auto& fact) { return fact.name == study.allocation.fact; });
     return {study.title,
             static_cast<int>(versions_of(study).size()),
@@ -200,7 +200,7 @@ bool counts_in_study(const std::string& recorded, const recording::InStudy& plac
                 study::counted(study, visits, static_cast<size_t>(spec - study.sessions.begin()));
             return visit != nullptr && fs::equivalent(visit->folder, here, failed);
         } catch (const Error&) {
-            continue;  // another kind of file, or a study whose recordings cannot be read
+            continue;  // not a study, or a study whose recordings cannot be read
         }
     }
     return false;

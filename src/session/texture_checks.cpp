@@ -14,7 +14,7 @@ namespace {
 
 using scene::Texture;
 
-constexpr double kSpeed = 0.25;  // speed of an exploring hand [m/s]
+constexpr double kSpeed = 0.25;  // speed of a hand that explores a surface [m/s]
 
 class TextureChecks {
   public:
@@ -40,10 +40,10 @@ class TextureChecks {
     }
 
   private:
-    /// The textures of each trial, as its perturbations change them.
+    /// Checks the textures in each trial, as changed by the trial's perturbations.
     void check_trials() {
         task::each_trial(*plan_.task, [&](size_t t, const task::TrialNumbers& numbers) {
-            std::map<int, frame::PropertiesFrame> all;  // by body; factors are multiplied
+            std::map<int, frame::PropertiesFrame> all;  // indexed by body; factors multiply
             for (const int p : plan_.task->trials[t].perturb) {
                 const task::PerturbationSpec& spec =
                     plan_.task->task.perturbations[static_cast<size_t>(p)];
@@ -60,7 +60,8 @@ class TextureChecks {
         });
     }
 
-    /// A trial in words; a procedure's trials are checked at the ends of its levels.
+    /// Describes a trial; trials that depend on a procedure are checked at the limits of its
+    /// levels.
     std::string in_trial(size_t trial) const {
         return fmt::format("in trial {}{}", trial + 1,
                            plan_.task->trials[trial].procedure < 0 ? "" : ", at some level,");
@@ -93,7 +94,7 @@ class TextureChecks {
 
     void check_ridges(const std::string& body, const Texture& texture, const Place& place,
                       const std::string& when) {
-        // wavelength of a grating of the same height and slope
+        // wavelength of a sinusoidal grating with this height and slope
         const double ridge = std::numbers::pi * texture.height / texture.steepest();
         if (ridge >= 4 * way_) return;
         diagnostics_.warning(
@@ -108,8 +109,8 @@ class TextureChecks {
 
     const Plan& plan_;
     Diagnostics& diagnostics_;
-    double way_;             // path of an exploring hand in a step [m]
-    std::set<int> limited_;  // lines of the perturbations that a warning has named
+    double way_;             // distance that an exploring hand travels per step [m]
+    std::set<int> limited_;  // source lines of perturbations already named in a warning
     std::set<int> close_;
 };
 

@@ -28,12 +28,13 @@ std::string folder_of(const std::string& rehearsal, const std::string& id) {
     return fmt::format("{}/{}{}", rehearsal, kUnfinished, id);
 }
 
-/// A folder that is held open, with a path that stays valid even if its name now leads elsewhere.
+/// Returns a path to an open folder that stays valid even if another folder later takes its name.
 fs::path held(int folder) {
     return fmt::format("/proc/self/fd/{}", folder);
 }
 
-/// Whether a file belongs to this user, and has no other name under which it would also change.
+/// Whether a file belongs to this user and has no other name (hard link) under which it would
+/// change, too.
 bool is_own_file(int descriptor) {
     struct stat file {};
     return ::fstat(descriptor, &file) == 0 && S_ISREG(file.st_mode) && file.st_nlink == 1 &&
@@ -45,9 +46,9 @@ bool is_own_file(int descriptor) {
                 "Check its content, and move it away; nothing in it was changed.");
 }
 
-/// Whether a folder is a session of this person that a rehearsal started: its name has the form
-/// DATE_TIME_EXPERIMENT_PERSON (with _2 and so on), and it contains session.yaml, scene.yaml or
-/// nothing at all.
+/// Whether a folder is a session of this person that was started by a rehearsal: its name has the
+/// form DATE_TIME_EXPERIMENT_PERSON (possibly followed by _2 and so on), and it contains
+/// session.yaml, scene.yaml or nothing at all.
 bool is_session(const fs::directory_entry& entry, const std::string& id) {
     const std::string name = entry.path().filename().string();
     std::tm when{};
@@ -89,7 +90,7 @@ bool UnfinishedFolder::lock() {
     }
     if (!messages_ || !is_own_file(messages_.get()))
         refuse(path_ + "/" + kMessages, "is a link, is not a file, or belongs to another user");
-    // on a file system without locks, waiting is pointless
+    // if the file system does not support locks, waiting is pointless
     return ::flock(messages_.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
@@ -112,7 +113,7 @@ void UnfinishedFolder::remove_sessions() const {
     for (const auto& entry : fs::directory_iterator(held(folder_.get()))) {
         if (is_session(entry, id_)) sessions.push_back(entry.path());
     }
-    for (const fs::path& session : sessions) fs::remove_all(session);  // follows no link
+    for (const fs::path& session : sessions) fs::remove_all(session);  // does not follow links
 }
 
 bool UnfinishedFolder::is_done() const {
@@ -129,7 +130,7 @@ bool has_session(const std::string& folder) {
 
 void UnfinishedFolder::finish(const std::string& session) const {
     std::error_code failed;
-    fs::rename(session, done_, failed);  // appears complete, or not at all
+    fs::rename(session, done_, failed);  // the session appears either completely or not at all
     if (!failed) return;
     throw Error({done_, 0}, "", "cannot be made: " + failed.message(),
                 fmt::format("The session is complete, in {}: move it there yourself.", session));
@@ -138,7 +139,7 @@ void UnfinishedFolder::finish(const std::string& session) const {
 void UnfinishedFolder::remove() const {
     remove_sessions();
     for (const auto& entry : fs::directory_iterator(held(folder_.get()))) {
-        if (entry.path().filename() != kMessages) return;  // files from elsewhere stay
+        if (entry.path().filename() != kMessages) return;  // files from elsewhere are kept
     }
     ::unlinkat(folder_.get(), kMessages, 0);
     ::rmdir(path_.c_str());

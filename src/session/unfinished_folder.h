@@ -1,6 +1,6 @@
-// The folder in which a person's session in a rehearsal is made. It belongs to one process at a
-// time, and sessions left in it by a killed program are removed: only sessions, and never through a
-// link, since the rehearsal's folder may come from a stranger.
+// The folder in which a person's session in a rehearsal is created. Only one process at a time can
+// hold it. Sessions left in the folder by a killed program are removed, but nothing other than
+// sessions, and never through a link, since the rehearsal's folder may come from a stranger.
 #pragma once
 
 #include <optional>
@@ -10,27 +10,28 @@
 
 namespace dihaptic::session {
 
-/// Prefix of the name of a folder in which a person's session is made.
+/// Prefix of the names of folders in which a person's session is created.
 inline constexpr const char* kUnfinished = "unfinished-";
 
 class UnfinishedFolder {
   public:
-    /// Makes the folder for a person in a rehearsal's folder, or takes over the one left by a
-    /// killed program, without its sessions. Returns nullopt while another process holds it. Throws
-    /// Error when its name is a link, or when it contains anything that no rehearsal left.
+    /// Creates the folder for a person in a rehearsal's folder, or takes over the one left by a
+    /// killed program, after removing the sessions in it. Returns nullopt while another process
+    /// holds the folder. Throws Error if its name belongs to a link, or if the folder contains
+    /// anything that a rehearsal would not have left there.
     static std::optional<UnfinishedFolder> take(const std::string& rehearsal,
                                                 const std::string& id);
 
-    /// The path at which the session is to be made.
+    /// The path at which the session is to be created.
     const std::string& path() const { return path_; }
-    /// The file, now empty, for the process's messages [descriptor].
+    /// Descriptor of the file for the process's messages, which is empty at first.
     int messages() const { return messages_.get(); }
-    /// Whether the person's session is complete: another program may have just completed it. Throws
-    /// Error like has_session().
+    /// Whether the person's session is complete, e.g. because another program has just completed
+    /// it. Throws Error like has_session().
     bool is_done() const;
-    /// Gives a completed session its name. Throws Error when this fails.
+    /// Moves a completed session to its final name. Throws Error when this fails.
     void finish(const std::string& session) const;
-    /// Removes the folder, with the sessions in it.
+    /// Removes the folder and the sessions in it.
     void remove() const;
 
   private:
@@ -41,15 +42,15 @@ class UnfinishedFolder {
     std::string id_;
     std::string done_;
     std::string path_;
-    Descriptor folder_;    // held open: a link that takes its name later has no effect
-    Descriptor messages_;  // locked as long as a process has it
+    Descriptor folder_;    // kept open, so that a link that later takes its name has no effect
+    Descriptor messages_;  // locked as long as a process holds the folder
 };
 
-/// Whether a rehearsed person's folder exists. Throws Error when anything else has its name, which
-/// would permanently block this person.
+/// Whether the folder of a simulated person exists. Throws Error if anything else has its name,
+/// which would permanently block this person.
 bool has_session(const std::string& folder);
 
-/// The text that a person's process wrote to messages(); "" if none can be read.
+/// Returns the text that a person's process wrote to messages(); "" if it cannot be read.
 std::string messages_of(const std::string& rehearsal, const std::string& id);
 
 }  // namespace dihaptic::session

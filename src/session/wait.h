@@ -1,5 +1,5 @@
-// Ends a session in which a trial waits for an action that its simulated hand never performs: such
-// a session would continue until it had filled the disk.
+// Ends a session in which a trial waits for an action that its simulated hand never performs.
+// Without this check, the session would continue until the disk is full.
 #pragma once
 
 #include <string>
@@ -15,27 +15,27 @@ class Wait {
   public:
     explicit Wait(const task::TaskPlan& plan);
 
-    /// Call in each tick, with the last frame and the commands for this tick.
+    /// Must be called in each tick, with the last frame and the commands for this tick.
     void look(const frame::Frame& last, const frame::Commands& commands) noexcept;
-    /// Whether the wait is too long and the session must end.
+    /// Whether the wait has become too long, so that the session must end.
     bool over() const noexcept { return over_; }
-    /// Describes the wait and the remedy. `phases`: the session's phases; `in_the_way`: a sentence
-    /// about the finger that kept an object from being put back.
+    /// Describes the wait and the remedy. `phases` are the session's phases. `in_the_way` is a
+    /// sentence about a finger that kept an object from being put back.
     std::string describe(const std::vector<recording::PhaseInfo>& phases,
                          const std::string& in_the_way) const;
 
   private:
-    static constexpr double kLongestBetween = 60;  // between trials [s]
-    static constexpr double kLongest = 60;         // in a state, beyond its exit by time [s]
-    static constexpr double kRounds = 10;          // rounds of all states in one attempt
+    static constexpr double kLongestBetween = 60;  // longest wait between trials [s]
+    static constexpr double kLongest = 60;         // longest wait in a state after its time-out [s]
+    static constexpr double kRounds = 10;          // most rounds of all states in one attempt
 
     int trial_ = 0;
     int attempt_ = 0;
     int phase_ = 0;
-    double since_ = 0;            // when the state began [s]
-    double begun_ = 0;            // when the attempt began [s]
+    double since_ = 0;            // session time when the state began [s]
+    double begun_ = 0;            // session time when the attempt began [s]
     double seen_ = 0;             // time of the last frame [s]
-    std::vector<double> bounds_;  // longest time in each phase [s]
+    std::vector<double> bounds_;  // longest duration of each phase [s]
     double attempt_bound_;
     bool over_ = false;
 };

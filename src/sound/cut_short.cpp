@@ -7,7 +7,7 @@
 namespace dihaptic::sound {
 namespace {
 
-/// A little-endian number of this many bytes; 0 if they are missing.
+/// Reads a little-endian number of `count` bytes; bytes beyond the end of the file count as zero.
 uint64_t number(std::string_view bytes, size_t at, size_t count) {
     uint64_t out = 0;
     for (size_t i = count; i-- > 0;) {
@@ -16,10 +16,10 @@ uint64_t number(std::string_view bytes, size_t at, size_t count) {
     return out;
 }
 
-/// Looks for the chunk of samples (Microsoft, IBM 1991; RF64, EBU Tech 3306, gives its size in a
-/// separate chunk).
+/// Checks the length of the chunk that contains the samples (Microsoft, IBM 1991). In RF64 files
+/// (EBU Tech 3306), the length is stored in a separate chunk.
 std::string cut_wav(std::string_view bytes) {
-    constexpr size_t kHead = 8;  // head of a chunk: name, size
+    constexpr size_t kHead = 8;  // chunk header: name and size
     uint64_t large = 0;
     for (size_t at = 12; at + kHead <= bytes.size();) {
         const std::string_view name = bytes.substr(at, 4);
@@ -37,7 +37,7 @@ std::string cut_wav(std::string_view bytes) {
     return "ends before its samples";
 }
 
-/// The last page of an Ogg stream is marked (RFC 3533).
+/// Checks that the last page of an Ogg stream is marked as the last (RFC 3533).
 std::string cut_ogg(std::string_view bytes) {
     constexpr size_t kHead = 27;
     constexpr unsigned kLast = 4;

@@ -7,7 +7,7 @@
 namespace dihaptic::sound {
 namespace {
 
-/// Half a period of a cosine, rising from 0 to 1, at sample `i` of `ramp`.
+/// Value at sample `i` of a raised cosine that rises from 0 to 1 over `ramp` samples.
 double swell(int64_t i, int64_t ramp) noexcept {
     if (i >= ramp) return 1;
     return (1 - std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(ramp))) /
@@ -18,7 +18,7 @@ double swell(int64_t i, int64_t ramp) noexcept {
 
 Mixer::Mixer(std::vector<Wave> waves, double rate, double delay)
     : waves_(std::move(waves)), rate_(rate), delay_(std::llround(delay * 1e9)) {
-    // the first request taken makes room for all later ones
+    // pushing and popping one request allocates the memory for all later ones
     orders_.push({});
     orders_.pop();
 }

@@ -1,5 +1,5 @@
-// Mixes sounds into a stream of samples. Each sound begins a fixed time after its request, accurate
-// to the sample.
+// Mixes sounds into a stream of samples. Each sound begins at a fixed time after its request, with
+// an accuracy of one sample.
 #pragma once
 
 #include <array>
@@ -11,35 +11,36 @@
 
 namespace dihaptic::sound {
 
-/// A request for a sound to start or to end.
+/// A request to start or to end a sound.
 struct Order {
     int64_t tick = 0;
     int32_t sound = -1;
     bool begins = true;
-    double asked = 0;  ///< session time [s]
-    int64_t at = 0;    ///< `asked`, by the clock of the stream [ns]
+    double asked = 0;  ///< session time of the request [s]
+    int64_t at = 0;    ///< time `asked` on the clock of the stream [ns]
 };
 
-/// The onset of a sound, as heard.
+/// The onset of a sound, i.e. when it was heard.
 struct Onset {
     int64_t tick = 0;
     int32_t sound = -1;
-    double asked = 0;  ///< session time [s]
-    double heard = 0;  ///< session time [s]
+    double asked = 0;  ///< session time of the request [s]
+    double heard = 0;  ///< session time at which the sound was heard [s]
 };
 
 class Mixer {
   public:
-    /// `delay`: time from a request to the sound [s].
+    /// `delay`: time from a request to its sound [s].
     Mixer(std::vector<Wave> waves, double rate, double delay);
 
-    /// Call from one thread: adds a request; neither waits nor allocates. False when too many are
-    /// pending.
+    /// To be called from one thread: adds a request, without waiting or allocating. Returns false
+    /// when too many requests are pending.
     bool order(const Order& order) noexcept { return orders_.push(order); }
-    /// Call from a second thread: renders the next samples of the stream. `first`: when the first
-    /// of them is heard, by the stream's clock [ns]. Neither waits nor allocates.
+    /// To be called from a second thread: renders the next samples of the stream, without waiting
+    /// or allocating. `first`: time at which the first of these samples is heard, on the stream's
+    /// clock [ns].
     void render(std::span<float> out, int64_t first) noexcept;
-    /// Call from a third thread: returns the oldest onset not yet taken.
+    /// To be called from a third thread: removes and returns the oldest onset not yet taken.
     std::optional<Onset> take_onset() { return onsets_.pop(); }
 
     double rate() const noexcept { return rate_; }
@@ -49,11 +50,11 @@ class Mixer {
   private:
     struct Voice {
         int32_t sound = -1;  // -1: free
-        int64_t wait = 0;    // samples until it begins
-        size_t at = 0;       // next sample of the wave
-        int64_t age = 0;     // samples since it began
-        int64_t ends = -1;   // samples until it begins to fade; -1: not known
-        int64_t faded = 0;   // samples since it began to fade
+        int64_t wait = 0;    // number of samples until the sound begins
+        size_t at = 0;       // index of the next sample of the wave
+        int64_t age = 0;     // number of samples since the sound began
+        int64_t ends = -1;   // number of samples until the sound begins to fade; -1 if not known
+        int64_t faded = 0;   // number of samples since the sound began to fade
     };
     int64_t samples_until(int64_t at, int64_t first) const noexcept;
     void take(const Order& order, int64_t first) noexcept;

@@ -1,5 +1,6 @@
-// Plays a task's sounds while its session runs. It receives requests from the servo, which never
-// waits for it, and writes heard.csv, with the time when each sound was heard.
+// Plays a task's sounds while its session runs. The player receives requests from the servo, which
+// never waits for the player, and writes heard.csv, which contains the time at which each sound was
+// heard.
 #pragma once
 
 #include <thread>
@@ -13,12 +14,13 @@ namespace dihaptic::sound {
 
 class Sink;
 
-/// Sounds that cannot be made are reported to `diagnostics`, with the reason.
+/// Checks that the sounds can be made. Those that cannot are reported to `diagnostics`, with the
+/// reason.
 void check(const std::vector<task::SoundSpec>& sounds, const display::SoundOutput& output,
            Diagnostics& diagnostics);
 
-/// Opens the selected sound device, closes it again, and returns its name. Throws Error when it
-/// cannot be opened.
+/// Opens the selected sound device, closes it again, and returns its name. Throws Error when the
+/// device cannot be opened.
 std::string try_speakers(const display::SoundOutput& output);
 
 class Player {
@@ -35,9 +37,9 @@ class Player {
     Player(const Player&) = delete;
     Player& operator=(const Player&) = delete;
 
-    /// Call in the tick. On the real clock it neither waits nor allocates.
+    /// To be called in each tick. On the real clock, neither waits nor allocates.
     void hear(const frame::Frame& frame) noexcept;
-    /// Call after the last tick: returns a message about any failure.
+    /// To be called after the last tick. Returns messages about any failures.
     std::vector<std::string> finish();
 
   private:
@@ -50,7 +52,7 @@ class Player {
     bool real_;
     std::atomic<int64_t> lost_{0};
     std::atomic<bool> done_{false};
-    std::thread thread_;  // on the real clock
+    std::thread thread_;  // only on the real clock
 };
 
 }  // namespace dihaptic::sound

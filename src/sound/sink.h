@@ -1,4 +1,4 @@
-// The destination of a mixer's stream: speakers, or a file.
+// The destination of a mixer's stream: speakers or a file.
 #pragma once
 
 #include <memory>
@@ -16,26 +16,28 @@ class Sink {
     virtual ~Sink() = default;
 
     virtual Mixer& mixer() noexcept = 0;
-    /// Call in a tick at this session time: returns the time by the stream's clock [ns].
+    /// To be called during the tick at this session time. Returns the corresponding time on the
+    /// stream's clock [ns].
     virtual int64_t clock(Time session) const noexcept = 0;
-    /// Call in the tick, after its requests. Neither waits nor allocates.
+    /// To be called during the tick, after the requests of the tick. Neither waits nor allocates.
     virtual void pass(Time) noexcept {}
-    /// Call every few milliseconds, from a thread that is not the servo's.
+    /// To be called every few milliseconds, from a thread other than the servo's.
     virtual void tend() {}
-    /// Call after the last tick: returns a message about any failure.
+    /// To be called after the last tick. Returns messages about any failures.
     virtual std::vector<std::string> finish() = 0;
 };
 
-/// Opens the system's sound device, or the named one. Throws Error when this fails.
+/// Opens the named sound device or, without a name, the system's default device. Throws Error when
+/// this fails.
 std::unique_ptr<Sink> open_speakers(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
                                     const display::SoundOutput& output);
 
-/// Writes a WAV file of one channel in which the session's time is counted from the start of the
-/// file. Throws Error when it cannot be written.
+/// Opens a WAV file with one channel for writing. The start of the file corresponds to session time
+/// 0. Throws Error when the file cannot be written.
 std::unique_ptr<Sink> open_file(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
                                 const display::SoundOutput& output, const std::string& file);
 
-/// The samples of all sounds.
+/// Makes the samples of all sounds.
 std::vector<Wave> make_waves(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
                              double rate);
 

@@ -43,7 +43,7 @@ class SoundFile final : public Sink {
   private:
     static constexpr size_t kBlock = 1024;  // samples
 
-    /// Writes blocks of at least `least` samples up to a time.
+    /// Writes samples until the stream reaches `time`, in blocks of at least `least` samples.
     void write_to(int64_t time, size_t least) {
         const auto until = static_cast<int64_t>(static_cast<double>(time) * 1e-9 * mixer_.rate());
         while (failed_.empty() && until - written_ >= static_cast<int64_t>(least)) {

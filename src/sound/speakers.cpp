@@ -14,13 +14,14 @@
 namespace dihaptic::sound {
 namespace {
 
-constexpr unsigned long kBuffer = 128;  // samples requested at a time
+constexpr unsigned long kBuffer = 128;  // number of samples requested at a time
 constexpr int kChannels = 2;
 
 /// A snd_lib_error_handler_t.
 void say_nothing(const char*, int, const char*, int, const char*, ...) {}
 
-/// ALSA and JACK write a message to the terminal for each device that they fail to open.
+/// Prevents ALSA and JACK from writing a message to the terminal for each device that they fail to
+/// open.
 void silence_systems() {
     const auto set = [](const char* setter, auto* handler) {
         using Set = void (*)(decltype(handler));
@@ -33,7 +34,7 @@ void silence_systems() {
         "jack_set_info_function", +[](const char*) {});
 }
 
-/// PortAudio, while it is needed.
+/// Initialises PortAudio, and terminates it when it is no longer needed.
 class System {
   public:
     System() {
@@ -48,7 +49,8 @@ class System {
     System& operator=(const System&) = delete;
 };
 
-/// The index of the output device whose name contains this text; if empty, the default.
+/// Returns the index of the first output device whose name contains the requested text or, if the
+/// text is empty, of the default device.
 PaDeviceIndex find_device(const display::SoundOutput& output) {
     std::vector<std::string> names;
     for (PaDeviceIndex i = 0; i < Pa_GetDeviceCount(); ++i) {
@@ -133,7 +135,7 @@ class Speakers final : public Sink {
     }
     void fill(float* out, size_t samples, const PaStreamCallbackTimeInfo& time,
               PaStreamCallbackFlags flags) noexcept {
-        // the first buffers are requested all at once
+        // the first buffers are all requested at once
         if ((flags & paOutputUnderflow) != 0 && (flags & paPrimingOutput) == 0) {
             broken_.fetch_add(1, std::memory_order_relaxed);
             clock_.begin_anew();

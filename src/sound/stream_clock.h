@@ -1,5 +1,5 @@
-// Estimates when a sample of a stream is heard, from the times that the sound system reports for
-// each buffer, which jitter by more than a sample.
+// Estimates when a sample of a stream is heard, using the times that the sound system reports for
+// each buffer. These times jitter by more than a sample.
 #pragma once
 
 #include <cmath>
@@ -7,14 +7,14 @@
 
 namespace dihaptic::sound {
 
-/// A delay-locked loop of first order: it follows the device's clock slowly, and jumps only when
-/// the stream was interrupted, or when the reported time is far off.
+/// A first-order delay-locked loop. It follows the device's clock slowly, and jumps only when the
+/// stream was interrupted or when the reported time is far off.
 class StreamClock {
   public:
     explicit StreamClock(double rate) : period_(1e9 / rate) {}
 
-    /// The time when the next `samples` begin to be heard [ns]. `said`: the time reported by the
-    /// sound system.
+    /// Returns the time at which the next `samples` begin to be heard [ns]. `said`: the time that
+    /// the sound system reported [ns].
     int64_t next(int64_t said, size_t samples) noexcept {
         const double error = static_cast<double>(said) - expected_;
         if (!begun_ || std::abs(error) > kBroken) {
@@ -28,14 +28,14 @@ class StreamClock {
         return out;
     }
 
-    /// The stream was interrupted: the next reported time is used unchanged.
+    /// Notes that the stream was interrupted, so that the next reported time is used unchanged.
     void begin_anew() noexcept { begun_ = false; }
 
   private:
     static constexpr double kBroken = 30e6;   // [ns]
-    static constexpr double kFollows = 0.02;  // share of the error corrected in each buffer
+    static constexpr double kFollows = 0.02;  // fraction of the error corrected in each buffer
 
-    double period_;  // period of the samples [ns]
+    double period_;  // sampling period [ns]
     double expected_ = 0;
     bool begun_ = false;
 };

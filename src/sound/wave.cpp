@@ -18,10 +18,10 @@ namespace dihaptic::sound {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kLoop = 10;      // continuous noise and tones repeat after this time [s]
-constexpr double kJoin = 0.5;     // time in which the end of pink noise fades into its start [s]
-constexpr double kLowest = 10;    // lowest frequency at which pink noise is pink [Hz]
-constexpr double kLongest = 600;  // longest sound file [s]
+constexpr double kLoop = 10;      // continuous noise and tones repeat with this period [s]
+constexpr double kJoin = 0.5;     // time over which pink noise is cross-faded with its start [s]
+constexpr double kLowest = 10;    // frequency above which pink noise is pink [Hz]
+constexpr double kLongest = 600;  // longest allowed sound file [s]
 
 size_t count(double time, double rate) {
     return static_cast<size_t>(std::llround(time * rate));
@@ -47,8 +47,8 @@ std::vector<double> white(size_t n, Random& random) {
     return out;
 }
 
-/// A sum of first-order processes of equal power whose corners lie an octave apart: between the
-/// first and the last corner its power falls as 1/f.
+/// Returns a sum of first-order processes of equal power whose corner frequencies are an octave
+/// apart. Between the lowest and the highest corner, the power falls as 1/f.
 std::vector<double> pink(size_t n, double rate, Random& random) {
     struct Process {
         double keeps;
@@ -67,8 +67,8 @@ std::vector<double> pink(size_t n, double rate, Random& random) {
     return out;
 }
 
-/// Makes repeatable noise: its end, `joint` samples longer than needed, is cross-faded into its
-/// start at constant power.
+/// Makes noise repeatable without a click: its last `joint` samples are cross-faded into its start
+/// at constant power and then removed.
 void join(std::vector<double>& samples, size_t joint) {
     const size_t n = samples.size() - joint;
     for (size_t i = 0; i < joint; ++i) {
@@ -126,8 +126,8 @@ std::vector<float> resampled(const std::vector<float>& samples, double from, dou
     return out;
 }
 
-/// Refuses a file that was cut short: otherwise every participant would hear a sound that lasts
-/// half as long as intended, or whose end is missing.
+/// Throws Error for a file that was cut short. Otherwise every participant would hear a sound that
+/// lasts half as long as intended, or whose end is missing.
 void check_whole(const task::SoundSpec& sound, const std::string& fault) {
     if (fault.empty()) return;
     throw Error(sound.place, "file",
@@ -149,7 +149,7 @@ std::vector<float> from_file(const task::SoundSpec& sound, double rate) {
     SF_INFO info{};
     const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(
         sf_open(sound.file.c_str(), SFM_READ, &info), sf_close);
-    // the library opens the rest of a WAV or FLAC file, but not always that of an Ogg file
+    // the library can open a truncated WAV or FLAC file, but not always a truncated Ogg file
     if (file || bytes.starts_with("OggS")) check_whole(sound, cut_short(bytes));
     if (!file) refuse(fmt::format("is not a sound file: {}", sf_strerror(nullptr)));
     if (info.frames <= 0) refuse("has no samples");
@@ -165,7 +165,7 @@ std::vector<float> from_file(const task::SoundSpec& sound, double rate) {
     for (size_t i = 0; i < read; ++i) {
         for (size_t k = 0; k < channels; ++k)
             mean[i] += all[i * channels + k] / static_cast<float>(channels);
-        // a file of floats may contain any value
+        // a file with floating-point samples may contain any value
         if (!std::isfinite(mean[i])) refuse(fmt::format("has an invalid value for sample {}", i));
     }
     return resampled(mean, info.samplerate, rate, sound);

@@ -24,14 +24,15 @@ int block_size(const StudyFile& study) {
     return study.allocation.block == 0 ? 2 * smallest : study.allocation.block;
 }
 
-/// One block: the groups in turn, those with more people more often.
+/// Returns one block. The groups take turns, and groups with a larger target number occur more
+/// often.
 std::vector<std::string> block_of(const StudyFile& study) {
     const int size = block_size(study);
     std::vector<double> given(study.groups.size(), 0);
     std::vector<std::string> out;
     for (int i = 0; i < size; ++i) {
         size_t next = 0;
-        // the group that has received the smallest part of its share
+        // next is the group that has received the smallest part of its share
         for (size_t g = 1; g < given.size(); ++g) {
             const auto part = [&](size_t k) { return (given[k] + 0.5) / study.groups[k].people; };
             if (part(g) < part(next) - 1e-12) next = g;
@@ -42,20 +43,21 @@ std::vector<std::string> block_of(const StudyFile& study) {
     return out;
 }
 
-/// The group at the first free place of the sequence.
+/// Returns the group of the first free place in the sequence.
 std::string next_in_sequence(const StudyFile& study, const Roster& roster) {
     std::map<std::string, int> seen;
-    // long enough for every group's target number, even if the last block is not filled
+    // long enough to reach every group's target number, even if the last block is not filled
     const auto count = static_cast<size_t>(study.people() + 2 * block_size(study));
     for (const std::string& group : sequence_of(study, count)) {
         const int active = roster.active(group);
         if (active < study.group(group).people && ++seen[group] > active) return group;
     }
-    return "";  // not reached: the caller checked that a group has a free place
+    return "";  // unreachable: the caller has checked that a group has a free place
 }
 
-/// The sum over facts of a range, if the person joined `joined`: the range, between groups, of the
-/// share of people with the person's value.
+/// Returns the imbalance that would result if the person joined the group `joined`: for each fact,
+/// the range between groups of the proportion of people who share the person's value, summed over
+/// the facts.
 double imbalance(const StudyFile& study, const Roster& roster, const Member& person,
                  const std::string& joined) {
     double out = 0;
@@ -91,10 +93,10 @@ std::string minimising(const StudyFile& study, const Roster& roster, const Membe
     const bool follows = random.uniform(0, 1) < study.allocation.chance;
     const auto& from = follows || others.empty() ? best : others;
     const auto i = static_cast<size_t>(random.uniform(0, static_cast<double>(from.size())));
-    return from[std::min(i, from.size() - 1)];  // uniform() may round up to its bound
+    return from[std::min(i, from.size() - 1)];  // uniform() may return its upper bound
 }
 
-/// The group to which a fact assigns the person.
+/// Returns the group to which the person's fact assigns the person.
 std::string by_fact(const StudyFile& study, const Member& person,
                     const std::vector<std::string>& open) {
     const std::string group = person.fact(study.allocation.fact);
@@ -119,7 +121,7 @@ std::string chosen(const StudyFile& study, const Roster& roster, const Member& p
     return next_in_sequence(study, roster);
 }
 
-/// The smallest free number in the group.
+/// Returns the smallest number in the group that is not taken.
 int free_number(const Roster& roster, const std::string& group) {
     std::set<int> held;
     for (const Member& member : roster.participants) {

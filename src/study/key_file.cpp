@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr mode_t kOthers = 0077;
 
-/// Whether the file lies in the folder, or below it.
+/// Whether the file is in the folder or in one of its subfolders.
 bool is_in(const std::string& file, const std::string& folder) {
     const fs::path inner = fs::weakly_canonical(fs::absolute(file));
     const fs::path outer = fs::weakly_canonical(fs::absolute(folder));
@@ -85,7 +85,7 @@ bool KeyFile::remove(const std::string& participant) {
 }
 
 void KeyFile::write() const {
-    // a new file is accessible only to its owner before it contains a name; replacing it keeps this
+    // only the owner can access a new file, even before it contains names; replacing it keeps this
     if (!fs::exists(file_)) {
         const Descriptor made(::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
         if (!made)

@@ -1,5 +1,5 @@
-// The names behind a study's identifiers. A laboratory that has to know them keeps them in a table
-// of its own, outside the study's folder, which only its owner may read. Nothing else that the
+// The names behind a study's identifiers. A laboratory that has to know the names keeps them in a
+// separate table outside the study's folder, which only its owner may read. Nothing else that the
 // program writes contains a name.
 #pragma once
 
@@ -26,15 +26,18 @@ struct Key {
 class KeyFile {
   public:
     enum class Missing { is_made, is_refused };
-    /// Reads the file. Throws Error if it lies in the study's folder, if others can read it, if it
-    /// is not a key file or, unless a missing file is to be made, if it does not exist.
+    /// Reads the file. Throws Error if the file is in the study's folder, if other users can read
+    /// it, if it is not a key file, or if it does not exist, unless `missing` says that a missing
+    /// file is to be created.
     KeyFile(const StudyFile& study, std::string file, Missing missing);
 
-    /// Null if the file has no name for the participant.
+    /// Returns the name of the participant; null if the file has none.
     const Key* find(const std::string& participant) const;
-    /// Adds a participant, and writes the file. Throws Error if the participant has another name.
+    /// Adds a participant and writes the file. Throws Error if the file has a different name for
+    /// the participant.
     void add(const Key& key);
-    /// Removes a participant, and writes the file. Returns whether there was a name.
+    /// Removes a participant and writes the file. Returns whether the file had a name for the
+    /// participant.
     bool remove(const std::string& participant);
 
   private:

@@ -30,7 +30,7 @@ std::string file_of(const StudyFile& study) {
     return study.data + "/participants.yaml";
 }
 
-/// Throws Error when a person's fact is missing, or is not a value of that fact.
+/// Throws Error when a fact about the person is missing, or has a value that the fact cannot have.
 void check_fact(const StudyFile& study, const Member& person, const std::string& name) {
     const std::string value = person.fact(name);
     const bool standard = spec_of(study, name) == nullptr;
@@ -61,7 +61,7 @@ std::string in_small(std::string text) {
     return text;
 }
 
-/// Throws Error when an identifier is not valid, or when an identifier or a place occurs twice.
+/// Throws Error when an identifier is invalid, or when an identifier or a place occurs twice.
 void check_places(const Roster& roster, const std::string& file) {
     std::set<std::string> ids;
     std::set<std::pair<std::string, int>> places;
@@ -81,7 +81,8 @@ void check_places(const Roster& roster, const std::string& file) {
     }
 }
 
-/// The facts that the study uses: its own, and those on which inclusion or the group depends.
+/// Returns the facts that the study uses: those that it defines, and those on which inclusion or
+/// the allocation to a group depends.
 std::vector<std::string> needed_facts(const StudyFile& study) {
     std::vector<std::string> out;
     const auto add = [&](const std::string& name) {
@@ -203,7 +204,7 @@ void log(const StudyFile& study, const std::string& action, const std::string& p
     for (const std::string& cell : {recording::iso_now(), action, participant})
         text += to_csv(Table::Cell(cell)) + ",";
     text += to_csv(Table::Cell(detail)) + "\n";
-    // a single write, so that lines of several programs do not mix
+    // uses a single write, so that lines written by different programs are not interleaved
     if (!out || ::write(out.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()) ||
         ::fsync(out.get()) != 0) {
         throw Error({file, 0}, "", fmt::format("cannot be written: {}", std::strerror(errno)),
@@ -213,9 +214,9 @@ void log(const StudyFile& study, const std::string& action, const std::string& p
 
 StudyLock::StudyLock(const StudyFile& study)
     : descriptor_(::open(study.data.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY)) {
-    constexpr int kPatience = 100;  // tenths of a second
+    constexpr int kPatience = 100;  // in tenths of a second
     for (int i = 0; i < kPatience; ++i) {
-        // a file system without locks offers nothing to wait for
+        // on a file system without locks, the program continues without a lock
         if (!descriptor_ || ::flock(descriptor_.get(), LOCK_EX | LOCK_NB) == 0 ||
             errno != EWOULDBLOCK)
             return;

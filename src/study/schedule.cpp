@@ -15,8 +15,8 @@
 namespace dihaptic::study {
 namespace {
 
-/// The recording that stands for a session: the first complete one, or else the last incomplete
-/// one.
+/// Returns the recording that represents a session: the first complete recording or, if there is
+/// none, the last incomplete one.
 const Visit* latest(const std::vector<Visit>& visits, size_t session) {
     const Visit* out = nullptr;
     for (const Visit& visit : visits) {
@@ -30,7 +30,7 @@ double share_of(const Visit& visit) {
                              : static_cast<double>(visit.done) / static_cast<double>(visit.trials);
 }
 
-/// Adds the reason if it is too early or too late to begin a session now.
+/// Adds a reason to `next` if it is too early or too late to start a session now.
 void check_gap(const SessionSpec& session, const Visit& before, double now, Next& next) {
     const double gap = (now - before.started) / 3600;
     if (session.least_gap && gap < *session.least_gap)
@@ -134,7 +134,7 @@ std::string unmet(const Condition& condition, const std::string& trials) {
         return fmt::format("{} has no column '{}', on which this session depends", trials,
                            condition.column);
     }
-    std::map<int, size_t> last;  // row of each trial's last attempt
+    std::map<int, size_t> last;  // row of the last attempt at each trial
     for (size_t i = 0; i < table.size(); ++i) last[table[i].asked.trial] = i;
     double sum = 0;
     int count = 0;

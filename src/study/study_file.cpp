@@ -29,7 +29,8 @@ bool uses(const SessionSpec& session, std::string_view placeholder) {
     return session.experiment.find(placeholder) != std::string::npos;
 }
 
-/// Whether a word contains only letters, digits and `others`, and can be a part of a file's name.
+/// Whether a word contains only letters, digits and the characters in `others`, and can be part of
+/// a file name.
 bool is_word(const std::string& word, const char* others) {
     return !word.empty() && std::all_of(word.begin(), word.end(), [&](unsigned char c) {
         return std::isalnum(c) != 0 ||
@@ -37,7 +38,7 @@ bool is_word(const std::string& word, const char* others) {
     });
 }
 
-/// Checks a study's own rules, which visit() cannot express.
+/// Checks the rules of a study file that visit() cannot express.
 class Checker {
   public:
     Checker(const StudyFile& study, Diagnostics& diagnostics)
@@ -58,8 +59,8 @@ class Checker {
         diagnostics_.error(place, key, what, remedy);
     }
 
-    /// Reports a name that is empty, contains characters other than letters, digits and `others`,
-    /// or occurs twice.
+    /// Reports a name that is empty, that contains characters other than letters, digits and
+    /// `others`, or that occurs twice.
     void check_name(const Place& place, const char* key, const std::string& name,
                     const char* others, std::set<std::string>& names) {
         if (!is_word(name, others)) {
@@ -114,7 +115,8 @@ class Checker {
         }
     }
 
-    /// If a fact determines the groups, its values are the names of the groups.
+    /// Checks that, if a fact determines the groups, the values of this fact are the names of the
+    /// groups.
     void check_group_fact() {
         const Allocation& a = study_.allocation;
         const bool by_fact = a.method == Method::fact;

@@ -1,5 +1,5 @@
-// The file of a study: its groups and how people are allocated to them, who may take part, and
-// which experiment each session runs.
+// The file that describes a study: its groups and how people are allocated to them, who may take
+// part, and which experiment is run in each session.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace dihaptic::study {
 /// A group of participants.
 struct Group {
     std::string name;
-    int people = 0;  ///< target number
+    int people = 0;  ///< target number of participants
     Place place;
 
     template <class Visitor>
@@ -33,15 +33,15 @@ constexpr auto enum_names(Method) {
     return std::array{"in_turn", "blocks", "minimisation", "fact"};
 }
 
-/// How the next participant's group is chosen (allocation.h).
+/// How the group of the next participant is chosen (allocation.h).
 struct Allocation {
     Method method = Method::in_turn;
-    int block = 0;                  ///< people per block; 0: twice the smallest block
-    std::vector<std::string> over;  ///< facts that minimisation balances
+    int block = 0;                  ///< number of people per block; 0: twice the smallest block
+    std::vector<std::string> over;  ///< facts that minimisation balances between groups
     std::string fact;               ///< fact whose value is the name of the group
     double chance = 0.8;  ///< probability that minimisation chooses the best balanced group
     int seed = 1;
-    bool concealed = false;  ///< the operator does not see groups
+    bool concealed = false;  ///< whether groups are hidden from the operator
     Place place;
 
     template <class Visitor>
@@ -65,10 +65,10 @@ struct Allocation {
     }
 };
 
-/// A fact that is asked of every participant, besides age, sex and handedness.
+/// A fact that every participant is asked for, in addition to age, sex and handedness.
 struct FactSpec {
     std::string name;
-    std::vector<std::string> values;  ///< allowed values; empty: a number
+    std::vector<std::string> values;  ///< allowed values; empty if the fact is a number
     Place place;
 
     template <class Visitor>
@@ -78,10 +78,10 @@ struct FactSpec {
     }
 };
 
-/// A condition on a fact of a participant.
+/// A condition that a fact about a participant must meet.
 struct Criterion {
     std::string fact;
-    std::vector<std::string> is;  ///< allowed values; empty: any
+    std::vector<std::string> is;  ///< allowed values; empty if any value is allowed
     std::optional<double> at_least, at_most;
     Place place;
 
@@ -95,11 +95,11 @@ struct Criterion {
     }
 };
 
-/// A condition on the previous session. A text's share or a number's mean is taken over the last
-/// attempts at its trials.
+/// A condition that the previous session must meet. The proportion of a text, or the mean of a
+/// number, is computed over the last attempts at the trials of that session.
 struct Condition {
-    std::string column;  ///< column of trials.csv
-    std::string is;      ///< the text whose share is taken; empty: the mean is taken
+    std::string column;  ///< name of a column of trials.csv
+    std::string is;      ///< text whose proportion is computed; if empty, the mean is computed
     std::optional<double> at_least, at_most;
     Place place;
 
@@ -115,12 +115,13 @@ struct Condition {
     }
 };
 
-/// A session of every participant.
+/// A session that every participant has.
 struct SessionSpec {
     std::string name;
-    std::string
-        experiment;  ///< file, relative to the study's; {group} and {condition} are replaced
-    std::optional<double> least_gap, most_gap;  ///< between the starts of two sessions [h]
+    std::string experiment;  ///< path of the experiment file, relative to the study file; {group}
+                             ///< and {condition} are replaced
+    std::optional<double> least_gap,
+        most_gap;  ///< minimum and maximum time between the starts of two sessions [h]
     std::vector<Condition> needs;
     Place place;
 
@@ -146,7 +147,7 @@ struct SessionSpec {
 /// What happens to a session that was interrupted.
 struct Resuming {
     double within = 2;    ///< [h]
-    double complete = 1;  ///< share of trials
+    double complete = 1;  ///< fraction of the trials
     Place place;
 
     template <class Visitor>
@@ -173,8 +174,9 @@ struct StudyFile {
     task::Order order = task::Order::latin_square;
     std::vector<SessionSpec> sessions;
     Resuming resuming;
-    std::string folder;  ///< folder of the file; not stored in it
-    std::string data;  ///< folder of participants and recordings: that of the file, or another one
+    std::string folder;  ///< folder of the study file; not stored in the file
+    std::string data;  ///< folder of participants and recordings: the folder of the study file, or
+                       ///< a different one
     Place place;
 
     template <class Visitor>
@@ -197,31 +199,32 @@ struct StudyFile {
 
     int people() const;  ///< target number of participants
     const Group& group(const std::string& name) const;
-    /// Number of orders of the conditions that should occur equally often; 0: the order does not
-    /// depend on the participant's number.
+    /// Returns the number of orders of the conditions that should occur equally often; 0 if the
+    /// order does not depend on the participant's number.
     int orders() const;
-    /// The conditions in the order of a participant, by the number in the group, from 1.
+    /// Returns the conditions in the order in which a participant has them. `number`: number in the
+    /// group, from 1.
     std::vector<std::string> conditions_of(const std::string& group, int number) const;
-    /// Path of the experiment of session `index`.
+    /// Returns the path of the experiment in session `index`.
     std::string experiment_of(size_t index, const std::string& group, int number) const;
-    /// All experiments that a participant may have in session `index`: the path of each, by its
-    /// name in the study's file with placeholders replaced.
+    /// Returns all experiments that a participant may have in session `index`. Maps the name of
+    /// each experiment (as in the study file, with placeholders replaced) to its path.
     std::map<std::string, std::string> experiments_of(size_t index) const;
-    /// The name of the experiment of session `index`, as in experiments_of().
+    /// Returns the name of the experiment in session `index`, as in experiments_of().
     std::string experiment_name(size_t index, const std::string& group, int number) const;
-    /// Name of the session's condition; empty without conditions.
+    /// Returns the name of the session's condition; empty if there are no conditions.
     std::string condition_of(size_t index, const std::string& group, int number) const;
-    /// The code that stands for a group while groups are concealed: "arm 3f2a". It depends only on
-    /// the seed and the group's name, not on the other groups.
+    /// Returns the code that stands for a group while groups are concealed, e.g. "arm 3f2a". The
+    /// code depends only on the seed and on the name of the group, not on the other groups.
     std::string code_of(const std::string& name) const;
-    /// The group's name, or its code while groups are concealed.
+    /// Returns the name of the group or, while groups are concealed, its code.
     std::string shown_group(const std::string& name) const;
-    /// The group with this name or code; empty if there is none.
+    /// Returns the group that has this name or code; empty if there is none.
     std::string group_shown(const std::string& shown) const;
 };
 
-/// Reads study.yaml. Throws Error with all faults of the file; experiments are checked elsewhere
-/// (session/study_session.h).
+/// Reads study.yaml. Throws Error with all errors in the file. The experiments themselves are
+/// checked elsewhere (session/study_session.h).
 StudyFile read_study(const std::string& file);
 
 }  // namespace dihaptic::study

@@ -21,7 +21,7 @@ Orbit orbit_of(const Camera& camera) {
     const Vec3 d = camera.position - camera.look_at;
     const double across = std::hypot(d.x(), d.y());
     const double distance = std::hypot(across, d.z());
-    // straight above, or without a direction: the azimuth of the person's side
+    // straight above, where there is no direction, use the azimuth of the person's side
     const double azimuth = across > 1e-9 * distance ? std::atan2(d.x(), -d.y()) : 0;
     return {distance, azimuth, std::atan2(d.z(), across)};
 }
@@ -34,7 +34,7 @@ Camera with(const Camera& camera, const Orbit& o) {
     return out;
 }
 
-/// A point a little above the middle of the movable bodies, since bodies are lifted.
+/// A point slightly above the middle of the movable bodies, because bodies will be lifted.
 Vec3 middle(const scene::Scene& scene) {
     Vec3 sum = Vec3::Zero();
     int count = 0;
@@ -46,7 +46,7 @@ Vec3 middle(const scene::Scene& scene) {
     return (count > 0 ? Vec3(sum / count) : Vec3::Zero()) + Vec3(0, 0, 0.03);
 }
 
-/// Radius about `centre` that encloses the movable bodies, and the hands around them [m].
+/// Radius of a ball about `centre` that encloses the movable bodies and the hands around them [m].
 double reach(const scene::Scene& scene, const Vec3& centre) {
     double out = 0.12;
     for (const scene::Body& body : scene.bodies) {
@@ -92,7 +92,7 @@ Camera find_camera(const std::vector<Camera>& cameras, const std::string& name) 
 Camera orbited(const Camera& camera, double azimuth, double elevation) {
     Orbit o = orbit_of(camera);
     o.azimuth = std::remainder(o.azimuth + azimuth, 2 * kPi);
-    // a position straight above does not define the azimuth: stay slightly off
+    // stay slightly away from the vertical, where the position does not define the azimuth
     constexpr double kSteepest = kPi / 2 - 1e-6;
     o.elevation = std::clamp(o.elevation + elevation, -kSteepest, kSteepest);
     return with(camera, o);

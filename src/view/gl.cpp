@@ -25,7 +25,7 @@ Program::Program(const std::string& vertex, const std::string& fragment)
          {std::pair{GL_VERTEX_SHADER, &vertex}, std::pair{GL_FRAGMENT_SHADER, &fragment}}) {
         const GLuint shader = compile(static_cast<GLenum>(kind), *text);
         glAttachShader(name_, shader);
-        glDeleteShader(shader);  // only marks it: the shader is deleted with the program
+        glDeleteShader(shader);  // only marks it: it is deleted together with the program
         if (log[0] == 0) glGetShaderInfoLog(shader, log.size(), nullptr, log.data());
     }
     glLinkProgram(name_);

@@ -1,4 +1,5 @@
-// OpenGL objects that are deleted at the end of their scope. For the sources of this folder only.
+// OpenGL objects that are deleted at the end of their scope. Only for use by the sources in this
+// folder.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -13,7 +14,7 @@
 
 namespace dihaptic::view::gl {
 
-/// The name of an OpenGL object, which the destructor deletes.
+/// The name (handle) of an OpenGL object. The destructor deletes the object.
 template <auto Delete>
 class Name {
   public:
@@ -74,10 +75,10 @@ inline Renderbuffer make_renderbuffer() {
     return Renderbuffer(n);
 }
 
-/// A repeating picture, which shaders read in linear light.
+/// Makes a texture that repeats a picture. Shaders read it as linear light.
 Texture make_texture(const Image& image);
 
-/// A vertex and a fragment shader, linked; given as source without the line "#version 330 core".
+/// A linked vertex and fragment shader. Their source is given without the line "#version 330 core".
 class Program {
   public:
     Program(const std::string& vertex, const std::string& fragment);
@@ -104,8 +105,8 @@ class Program {
     Name<delete_program> name_;
 };
 
-/// Triangles in OpenGL's memory: positions are attribute 0, normals attribute 1, and colours, if
-/// there are any, attribute 2.
+/// Triangles in OpenGL's memory. Attribute 0 contains positions, attribute 1 normals and attribute
+/// 2 colours, if there are any.
 class Model {
   public:
     Model() = default;

@@ -10,12 +10,12 @@ namespace {
 
 using Lengths = std::array<double, 3>;
 
-// Bones of a hand 19 cm long [m].
+// Lengths of the bones of a hand that is 19 cm long [m].
 constexpr Lengths kThumb{0.045, 0.033, 0.028};
 constexpr Lengths kIndex{0.043, 0.026, 0.022};
-constexpr double kPad = 0.006;  // depth of the end of the bone below the skin
+constexpr double kPad = 0.006;  // distance of the bone's end below the skin [m]
 
-/// The hand's axes: a from thumb to index finger, f to the wrist, n out of the palm.
+/// The hand's axes: a from the thumb to the index finger, f to the wrist, n out of the palm.
 struct Axes {
     Vec3 a, f, n;
 
@@ -28,15 +28,15 @@ Axes axes(const Vec3& thumb, const Vec3& index) {
     Axes out;
     out.a = (index - thumb).normalized();
     const Vec3 person(0, -0.85, 0.53), above(0, 0.3, 0.95);
-    // if the grip is along the forearm, the hand is above it
+    // if the grip axis is along the forearm, the hand comes from above
     const Vec3& toward = std::abs(out.a.dot(person)) < 0.9 ? person : above;
     out.f = (toward - toward.dot(out.a) * out.a).normalized();
     out.n = out.a.cross(out.f);
     return out;
 }
 
-/// The joints of a finger whose bones all have the same angle to each other, in the plane of its
-/// root, its tip and `bulge`, toward which it is bent.
+/// The joints of a finger that is bent by the same angle at every joint. It lies in the plane of
+/// `root`, `tip` and `bulge`, and bulges toward `bulge`.
 std::array<Vec3, 4> finger(const Vec3& root, const Vec3& tip, const Lengths& lengths,
                            const Vec3& bulge) {
     using Plane = std::complex<double>;
@@ -69,8 +69,8 @@ void add(std::vector<Bone>& out, const std::array<Vec3, 4>& joints, double radiu
         out.push_back({joints[i], joints[i + 1], radius * (1 - 0.07 * static_cast<double>(i))});
 }
 
-/// Distance of the palm from the grip along f, chosen so that both fingers reach, and are bent if
-/// there is room.
+/// Distance from the grip to the palm along f, chosen so that both fingers reach the grip and, if
+/// there is room, are bent.
 double distance_of_palm(double half_opening) {
     const auto within = [](double length, double across) {
         return std::sqrt(std::max(0.0, length * length - across * across));
@@ -99,7 +99,7 @@ std::vector<Bone> hand_bones(const Vec3& thumb, const Vec3& index) {
 
     struct Other {
         double root_a, root_f, tip_a,
-            tip_f;  // offsets from the palm, from the index finger's tip [m]
+            tip_f;  // root: offset from the palm; tip: offset from the index finger's tip [m]
         Lengths lengths;
         double radius;
     };

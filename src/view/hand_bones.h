@@ -1,4 +1,5 @@
-// Places the bones of a simple right hand, given the recorded thumb and index finger.
+// Places the bones of a simplified right hand, given the recorded positions of the thumb and the
+// index finger.
 #pragma once
 
 #include <vector>
@@ -7,18 +8,18 @@
 
 namespace dihaptic::view {
 
-/// A straight part of the hand, with round ends.
+/// A straight part of the hand, with rounded ends.
 struct Bone {
     Vec3 from;
     Vec3 to;
     double radius;
 };
 
-/// The forearm, the palm, and the bones of five fingers, each from its root to its tip. `thumb`,
-/// `index`: points that these fingers touch, in W [m]. The hand comes from the person's side (-y)
-/// and a little from above; the other fingers follow the index finger. Bones keep their lengths, so
-/// if the two points are too far apart for a hand, the fingers end short of them. Empty if both
-/// points are equal, or if one is unknown.
+/// Returns the forearm, the palm, and the bones of five fingers, each finger from root to tip.
+/// `thumb`, `index`: points that these fingers touch, in W [m]. The hand comes from the person's
+/// side (-y) and slightly from above; the other fingers follow the index finger. The lengths of
+/// bones are fixed, so if the two points are too far apart for a hand, the fingers do not reach
+/// them. Returns no bones if the points are equal or if one of them is unknown.
 std::vector<Bone> hand_bones(const Vec3& thumb, const Vec3& index);
 
 }  // namespace dihaptic::view

@@ -18,7 +18,7 @@ Pose shown(const frame::Frame& frame, int body) {
     return body < 0 ? Pose{} : frame::displayed_body(frame, static_cast<size_t>(body));
 }
 
-/// A coil from a to b, with straight ends.
+/// A coil spring from a to b, with straight ends.
 void add_spring(Solids& out, const Vec3& a, const Vec3& b) {
     constexpr int kTurns = 8;
     constexpr int kPerTurn = 10;
@@ -55,7 +55,7 @@ JointMark::JointMark(const scene::Joint& joint, const scene::Scene& scene)
     const Vec3 axis_W = joint.axis.normalized();
     axis_A_ = X_AW.R * axis_W;
     second_B_ = X_BW.R * joint.second_axis.normalized();
-    // the spring starts at the first body's middle or, without one, beside the joint
+    // the spring starts at the middle of the first body or, if there is none, beside the joint
     const Vec3 way = a_ < 0 ? Vec3(-4 * kHalfAxis * axis_W) : Vec3(pose(a_).p - joint.position);
     from_A_ = p_A_ + axis_A_ * axis_W.dot(way);
 }
@@ -91,7 +91,7 @@ void JointMark::add_slider(Solids& out, const Pose& X_WA, const Pose& X_WB) cons
     const Vec3 axis = X_WA.R * axis_A_;
     const Vec3 from = X_WA * from_A_;
     const Vec3 stretch = axis * axis.dot(X_WB.p - from);
-    constexpr double kShort = 0.002;  // length below which a spring is not visible
+    constexpr double kShort = 0.002;  // length below which a spring cannot be seen
     if (springs_ && stretch.norm() > kShort) {
         add_spring(out, from, from + stretch);
         return;

@@ -1,4 +1,5 @@
-// Marks that show a scene's joints: axes, points, rods, and springs with their present stretch.
+// Marks that show the joints of a scene: axes, points, rods, and springs with their current
+// stretch.
 #pragma once
 
 #include <vector>
@@ -9,11 +10,12 @@
 
 namespace dihaptic::view {
 
-/// One joint, with its position on the bodies that it joins.
+/// The mark of one joint, with its position on the two connected bodies.
 class JointMark {
   public:
     JointMark(const scene::Joint& joint, const scene::Scene& scene);
-    /// Adds the mark at the displayed poses of the frame's bodies. `ball`: a ball of radius 1.
+    /// Adds the mark, with the bodies at their displayed poses in the frame. `ball`: a model of a
+    /// ball of radius 1.
     void add_to(Solids& out, const frame::Frame& frame, const gl::Model& ball) const;
 
   private:
@@ -21,13 +23,13 @@ class JointMark {
 
     scene::JointKindRow kind_;
     bool springs_;
-    int a_;        // index of the first body; -1: the world
+    int a_;        // index of the first body; -1 for the world
     int b_;        // index of the second body
-    Vec3 p_A_;     // the joint's point on the first body
-    Vec3 p_B_;     // the joint's point on the second body
+    Vec3 p_A_;     // position of the joint on the first body
+    Vec3 p_B_;     // position of the joint on the second body
     Vec3 axis_A_;  // unit vectors
     Vec3 second_B_;
-    Vec3 from_A_;  // start of a slider's spring
+    Vec3 from_A_;  // start of the spring of a slider
 };
 
 std::vector<JointMark> joint_marks(const scene::Scene& scene);

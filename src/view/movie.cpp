@@ -25,7 +25,7 @@ Movie::Movie(const std::string& file, int width, int height, int frames_per_seco
     if (width % 2 != 0 || height % 2 != 0)
         throw Error(fmt::format("a video cannot have the size {}x{}", width, height),
                     "Give an even width and height with --size.");
-    // a socket, because writing to a pipe without a reader would end this program
+    // a socket, because writing to a pipe without a reader would terminate this program
     auto [ours, its] = unix_socket_pair(SOCK_STREAM);
     pictures_ = std::move(ours);
     said_ = Descriptor(memfd_create("ffmpeg", MFD_CLOEXEC));
@@ -36,7 +36,7 @@ Movie::Movie(const std::string& file, int width, int height, int frames_per_seco
         width, height, frames_per_second);
     std::vector<std::string> arguments = shell_words(options).value();
     arguments.push_back("file:" + output_.path());
-    // Ctrl-C is for this program only: ffmpeg would end its file as if it were complete
+    // Ctrl-C must not reach ffmpeg, which would finish its file as if it were complete
     constexpr short kOwnGroup = POSIX_SPAWN_SETPGROUP;
     if (error == 0)
         error = ffmpeg_.start(
@@ -49,7 +49,8 @@ Movie::Movie(const std::string& file, int width, int height, int frames_per_seco
                 "End other programs and try again.");
 }
 
-/// Waits until ffmpeg ends; returns its exit status, 0 for success. May be called again.
+/// Waits until ffmpeg has ended, and returns its exit status, which is 0 for success. May be called
+/// repeatedly.
 int Movie::wait() {
     pictures_.close();
     return ffmpeg_.wait().value_or(0);

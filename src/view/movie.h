@@ -1,4 +1,4 @@
-// Makes videos with the program ffmpeg, which receives each picture as soon as it is drawn.
+// Makes videos with the program ffmpeg, to which each picture is passed as soon as it is drawn.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace dihaptic::view {
 
-/// An MP4 file (H.264) under construction. It appears under its name once it is complete.
+/// An MP4 file (H.264) that is being written. It gets its final name only when it is complete.
 class Movie {
   public:
-    /// Throws Error when ffmpeg is missing, or when width or height is odd, because players refuse
-    /// odd sizes.
+    /// Throws Error when ffmpeg is missing, or when `width` or `height` is odd, because video
+    /// players refuse odd sizes.
     Movie(const std::string& file, int width, int height, int frames_per_second);
 
-    /// Throws an Error with ffmpeg's message when ffmpeg has ended prematurely.
+    /// Adds a picture. If ffmpeg has ended prematurely, throws an Error with ffmpeg's message.
     void add(const Image& image);
-    /// Without this call, no file remains.
+    /// Completes the file. If finish() is not called, no file remains.
     void finish();
 
   private:
@@ -28,9 +28,9 @@ class Movie {
 
     std::string file_;
     Output output_;
-    Descriptor pictures_;  // socket from which ffmpeg reads pictures
+    Descriptor pictures_;  // socket from which ffmpeg reads the pictures
     Descriptor said_;      // memory file to which ffmpeg writes its errors
-    Child ffmpeg_;         // declared last, so that it ends before the file is removed
+    Child ffmpeg_;         // declared last, so that ffmpeg ends before the file is removed
 };
 
 }  // namespace dihaptic::view

@@ -32,7 +32,8 @@ struct Offscreen::Context {
             eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
             eglDestroyContext(display, context);
         }
-        // the display belongs to the process: another Offscreen may be using it
+        // the display is not closed, because it is shared by the process: another Offscreen may be
+        // using it
     }
 };
 
@@ -83,7 +84,7 @@ Image Offscreen::read() const {
     glBindFramebuffer(GL_FRAMEBUFFER, context_->framebuffer);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
-    // OpenGL's rows go from bottom to top
+    // OpenGL stores rows from bottom to top
     for (size_t y = 0; y < static_cast<size_t>(height_) / 2; ++y) {
         auto* const low = &image.rgb[y * row];
         std::swap_ranges(low, low + row, &image.rgb[(static_cast<size_t>(height_) - 1 - y) * row]);

@@ -8,11 +8,13 @@
 
 namespace dihaptic::view {
 
-/// An OpenGL 3.3 core context from Mesa, current in the thread that made it, and a framebuffer to
-/// draw into. Mesa uses a graphics card if permitted, and otherwise draws in software.
+/// A framebuffer to draw into, and an OpenGL 3.3 core context from Mesa, which is current in the
+/// thread that made it. Mesa uses a graphics card if the user has permission, and otherwise draws
+/// in software.
 class Offscreen {
   public:
-    /// Throws Error, naming the package to install, when there is no OpenGL of this kind.
+    /// Throws Error, which names the package to install, when such an OpenGL context is not
+    /// available.
     Offscreen(int width, int height);
     ~Offscreen();
     Offscreen(const Offscreen&) = delete;
@@ -20,11 +22,11 @@ class Offscreen {
 
     int width() const { return width_; }
     int height() const { return height_; }
-    /// OpenGL's name of the renderer.
+    /// Name of the renderer, as given by OpenGL.
     std::string renderer() const;
-    /// Waits until everything is drawn.
+    /// Waits until all drawing has finished.
     void wait() const;
-    /// The picture in the framebuffer; waits until everything is drawn.
+    /// Waits until all drawing has finished, and returns the picture in the framebuffer.
     Image read() const;
 
   private:

@@ -7,13 +7,13 @@ namespace dihaptic::view {
 namespace {
 
 constexpr double kNearestShare =
-    0.05;  // ratio of the nearest visible distance to that of the screen
+    0.05;  // nearest visible distance, as a share of the distance of the screen
 
 Viewpoint viewpoint(const display::Display& display, const Vec3& eye_W, double beyond) {
     Mat3 edges;
     edges << display.right(), display.up(), display.lower_left - eye_W;
-    const Mat3 shares = edges.inverse();  // alpha, beta, gamma
-    // depth from -1, at the nearest, to 1
+    const Mat3 shares = edges.inverse();  // rows give alpha, beta, gamma
+    // depth ranges from -1, at the nearest, to 1
     const Vec3 normal = display.right().cross(display.up()).normalized();
     const double furthest = 1 + beyond / std::abs(normal.dot(display.lower_left - eye_W));
     const double depth = (furthest + kNearestShare) / (furthest - kNearestShare);

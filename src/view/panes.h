@@ -1,14 +1,14 @@
-// Each eye's view of a display: its part of the picture, and the frustum from the eye through the
-// screen's corners.
+// The view of a display by each eye: the eye's part of the picture, and the frustum from the eye
+// through the corners of the screen.
 //
-// A point X is drawn where the line from the eye E to it passes through the screen. With the
-// corner C and the edges a and b from it to the right and upward,
+// A point X is drawn where the line from the eye E to X passes through the screen. With the lower
+// left corner C of the screen, and the edges a to the right and b upward from C,
 //
 //     X - E = alpha a + beta b + gamma (C - E)
 //
-// has the position alpha / gamma, beta / gamma in shares of the edges, from the corner; gamma is
-// the depth of X over that of the screen (R. Kooima, "Generalized Perspective Projection", 2008,
-// derives this for rectangles).
+// is drawn at alpha / gamma and beta / gamma, measured from C as shares of the edges. gamma is the
+// ratio of the depth of X to that of the screen (R. Kooima, "Generalized Perspective Projection",
+// 2008, derives this for rectangles).
 #pragma once
 
 #include <vector>
@@ -17,32 +17,34 @@
 
 namespace dihaptic::view {
 
-/// The view of one eye, and the part of the picture that shows it.
+/// The view of one eye, and whether the picture that shows it is mirrored.
 struct Viewpoint {
     Vec3 eye_W = Vec3::Zero();                                      ///< [m]
     Eigen::Matrix4d clip_from_world = Eigen::Matrix4d::Identity();  ///< OpenGL's clip coordinates
     bool flipped = false;  ///< whether the picture is mirrored
 };
 
-/// A part of a picture, in shares of its width and height from its lower left.
+/// A part of a picture. Its size and its lower left corner are given as shares of the picture's
+/// width and height.
 struct Pane {
     Viewpoint viewpoint;
     double left = 0, bottom = 0, width = 1, height = 1;
-    bool red = true, green_blue = true;  ///< colours that are drawn
+    bool red = true, green_blue = true;  ///< colour channels that are drawn
 };
 
-/// The panes of a display: without stereo, or with alternating pictures, a single pane, seen from
-/// the middle between the eyes; otherwise one for the left eye and one for the right. `beyond`:
-/// largest distance behind the screen at which things are drawn [m].
+/// Returns the panes of a display. Without stereo, or when pictures alternate between the eyes,
+/// there is a single pane, seen from the midpoint between the eyes; otherwise there is one pane for
+/// the left eye and one for the right. `beyond`: largest distance behind the screen at which things
+/// are drawn [m].
 std::vector<Pane> panes(const display::Display& display, double beyond);
 
-/// The field of view of a headset's eye to each side, from straight ahead; left and down are
-/// negative, and all are within a quarter turn [rad].
+/// The field of view of a headset's eye, as angles from straight ahead to each side; left and down
+/// are negative, and all angles are smaller than a quarter turn [rad].
 struct FieldOfView {
     double left = 0, right = 0, up = 0, down = 0;
 };
-/// The view of a headset's eye at X_WE: E has x right, y up, and z backward, as in OpenXR. Things
-/// between these distances in front of the eye are drawn [m].
+/// The view of a headset's eye at X_WE, where E has x right, y up, and z backward, as in OpenXR.
+/// Things are drawn if their distance in front of the eye is between `nearest` and `furthest` [m].
 Viewpoint viewpoint(const Pose& X_WE, const FieldOfView& sees, double nearest, double furthest);
 
 }  // namespace dihaptic::view

@@ -9,8 +9,8 @@
 namespace dihaptic::view {
 namespace {
 
-/// Length of a ray up to a triangle; infinite if it misses. T. Moeller and B. Trumbore, "Fast,
-/// Minimum Storage Ray/Triangle Intersection", 1997.
+/// Distance along a ray to a triangle; infinite if the ray misses the triangle. T. Moeller and B.
+/// Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997.
 double length_to(const Vec3& from, const Vec3& along, const Vec3& a, const Vec3& b, const Vec3& c) {
     constexpr double kMisses = std::numeric_limits<double>::infinity();
     const Vec3 ab = b - a, ac = c - a;
@@ -37,12 +37,12 @@ double length_to(const Triangles& surface, const Vec3& from, const Vec3& along) 
     return nearest;
 }
 
-/// Largest distance toward the horizon at which bodies can be dragged [m].
+/// Largest distance at which bodies can be dragged toward the horizon [m].
 constexpr double kHorizon = 5;
-/// Least horizontal part of a line of sight from which heights can be judged.
+/// Smallest horizontal part of a line of sight from which heights can still be judged.
 constexpr double kSteep = 0.05;
 
-/// The point where a ray meets a plane; nullopt: none, or beyond the horizon.
+/// The point where a ray meets a plane; nullopt if there is none or if it is beyond kHorizon.
 std::optional<Vec3> meeting(const Ray& ray, const Vec3& through_W, const Vec3& normal) {
     const double toward = ray.along_W.dot(normal);
     const double length = (through_W - ray.from_W).dot(normal) / toward;
@@ -64,7 +64,7 @@ std::optional<Seen> seen_first(const scene::Scene& scene, const frame::Frame& fr
     double nearest = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < scene.bodies.size(); ++i) {
         if (!frame::is_displayed(frame, i)) continue;
-        // in the body's own scale, since the body may be shown enlarged
+        // computed at the body's own scale, because the body may be displayed enlarged
         const Pose X_BW = frame::displayed_body(frame, i).inverse();
         const double size = frame::displayed_size(frame, i);
         const double length = size * length_to(triangles(scene.bodies[i]), X_BW * ray.from_W / size,
@@ -77,7 +77,7 @@ std::optional<Seen> seen_first(const scene::Scene& scene, const frame::Frame& fr
 }
 
 std::optional<Vec3> dragged(const Vec3& held_W, const Ray& from, const Ray& to, bool upright) {
-    // along z, the pointer's path in the upright plane that faces the viewer
+    // to move along z, use the pointer's path in the upright plane that faces the viewer
     const Vec3 level(to.along_W.x(), to.along_W.y(), 0);
     if (upright && level.norm() < kSteep) return {};
     const Vec3 normal = upright ? Vec3(level.normalized()) : Vec3(Vec3::UnitZ());

@@ -23,11 +23,12 @@ namespace dihaptic::view {
 namespace {
 
 constexpr int kSamples = 4;
-constexpr int kShadowMap = 512;  // width in texels; half as many for pictures in less detail
+constexpr int kShadowMap = 512;            // width in texels, halved for less detailed pictures
 constexpr double kArrowPerNewton = 0.025;  // [m/N]
-constexpr double kDepthRange = 4;          // along the light [m]
+constexpr double kDepthRange = 4;          // largest depth along the light [m]
 
-/// Rotation R_LW into the light's frame: z is the depth, away from the light.
+/// Rotation R_LW into the frame of the light, in which z is the depth, i.e. the direction away from
+/// the light.
 Mat3 light_rotation() {
     const Vec3 z = -SceneView::light();
     const Vec3 x = Vec3::UnitY().cross(z).normalized();
@@ -36,17 +37,17 @@ Mat3 light_rotation() {
     return R_WL.transpose();
 }
 
-constexpr double kRod = 0.01;      // so thin that its round ends have no visible length
-constexpr double kKnuckle = 1.04;  // times a bone's radius, to hide the seam between two bones
+constexpr double kRod = 0.01;      // so small that the rounded ends have no visible length
+constexpr double kKnuckle = 1.04;  // factor on a bone's radius that hides the seam between bones
 
-/// The matrix that scales a model and places it at a pose.
+/// The matrix that scales a model and moves it to a pose.
 Eigen::Matrix4d placed(const Pose& X, const Vec3& scale = Vec3::Ones()) {
     Eigen::Matrix4d out = gl::matrix(X);
     out.topLeftCorner<3, 3>() *= scale.asDiagonal();
     return out;
 }
 
-/// Restores the framebuffer that was bound for drawing, at the end of the scope.
+/// Restores the framebuffer that was bound for drawing when its scope ends.
 class KeepTarget {
   public:
     KeepTarget() { glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target_); }
@@ -59,12 +60,12 @@ class KeepTarget {
     GLint target_ = 0;
 };
 
-/// The pose at `a` whose z axis points toward `b`.
+/// The pose with its origin at `a` and its z axis toward `b`.
 Pose along(const Vec3& a, const Vec3& b) {
     return {Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), b - a)), a};
 }
 
-/// Adds the edges of a box about the origin of A.
+/// Adds the edges of a box that is centred at the origin of A.
 void add_box(Solids& out, const Pose& X_WA, const Vec3& size, double radius, const Vec3& tint) {
     for (int axis = 0; axis < 3; ++axis) {
         for (int corner = 0; corner < 4; ++corner) {
@@ -84,8 +85,8 @@ void add_grip_axis(Solids& out, const frame::Frame& frame, size_t fingers) {
     out.add_line(place(0), model::opposing_point(fingers, place), 0.0006, ink("#7b4ea3"));
 }
 
-/// A program that lights and shadows surfaces. Features are selected by #define rather than by
-/// uniforms, because a software renderer executes both branches.
+/// A program that draws surfaces with light and shadows. Features are selected with #define instead
+/// of uniforms, because a software renderer executes both branches.
 gl::Program surface_program(Shadows shadows, const std::string& defined) {
     const std::string defines = defined + (shadows == Shadows::plain ? "#define PLAIN\n" : "");
     return {defines + shaders::kSurfaceVertex,
@@ -121,19 +122,19 @@ struct SceneView::Parts {
     std::vector<JointMark> joints;
     gl::Model floor;  // below everything, only in the shadow map: the depth beyond a table's edge
     Pose X_WF;
-    double table_top = 0;       // height of the surface on which the bodies stand [m]
-    Vec3 start = Vec3::Zero();  // middle of the bodies that cast shadows, at the start
-    double start_radius = 0.1;  // radius of a ball about it that encloses them [m]
+    double table_top = 0;       // height of the surface that bodies stand on [m]
+    Vec3 start = Vec3::Zero();  // initial middle of the bodies that cast shadows
+    double start_radius = 0.1;  // radius of a ball about `start` that encloses these bodies [m]
     ShadowMap shadow_map{kShadowMap};
     gl::Program surface;
-    std::optional<gl::Program> looks;  // program for metals, pictures and own colours
+    std::optional<gl::Program> looks;  // shader program for metals, pictures and own colours
     std::map<const Image*, gl::Texture> pictures;
     gl::Program background;
     gl::VertexArray nothing;
-    gl::Model ball;  // ball of radius 1
-    gl::Model rod;   // rod of radius kRod, from the origin to 1 along z
+    gl::Model ball;  // sphere of radius 1
+    gl::Model rod;   // rod of radius kRod along z, from 0 to 1
     Thing skin;      // the hand's colour
-    int thumb = -1;  // indices of fingers; -1: there is none
+    int thumb = -1;  // indices of these fingers; -1 if missing
     int index = -1;
     // the multisampled picture
     gl::Framebuffer samples;
@@ -175,7 +176,7 @@ struct SceneView::Parts {
         find_start(scene);
     }
 
-    /// Each picture is one texture, however many bodies use it.
+    /// A picture is loaded into one texture only, however many bodies use it.
     GLuint texture_of(const std::optional<scene::Picture>& picture) {
         if (!picture || !picture->image) return 0;
         gl::Texture& texture = pictures[picture->image.get()];
@@ -196,12 +197,12 @@ struct SceneView::Parts {
             start_radius = std::max(start_radius,
                                     (scene.bodies[i].position - start).norm() + bodies[i].radius);
         }
-        start_radius += 0.05;  // room for the fingers around them
+        start_radius += 0.05;  // leaves room for the fingers around the bodies
     }
 
-    /// Half of the shadow map's width: the smallest of a series of steps that encloses everything
-    /// that casts shadows. Steps keep shadows from swimming as bodies move. Distant things are left
-    /// out.
+    /// Half of the shadow map's width: the smallest in a series of steps that covers everything
+    /// that casts shadows, except for distant things. Steps are used because otherwise shadows
+    /// would swim as bodies move.
     double reach(const frame::Frame& frame, const Mat3& R_LW) const {
         double needed = start_radius;
         const double most = 4 * start_radius + 0.5;
@@ -217,7 +218,7 @@ struct SceneView::Parts {
         return start_radius * std::exp2(std::ceil(2 * std::log2(needed / start_radius)) / 2);
     }
 
-    /// Makes room for a picture of this size, drawn in less detail.
+    /// Allocates buffers for a picture of this size, reduced according to `detail`.
     void resize(int picture_width, int picture_height) {
         const auto of = [&](int pixels) {
             return std::max(1, static_cast<int>(std::lround(detail * pixels)));
@@ -250,7 +251,8 @@ struct SceneView::Parts {
                                   resolved_colour);
     }
 
-    /// Prepares a program to draw a thing; `tint`: the colour given by an experiment, or null.
+    /// Sets up and returns the program that draws a thing. `tint`: the colour given by an
+    /// experiment; null if there is none.
     using Prepare = std::function<const gl::Program&(const Thing&, const Vec3* tint)>;
 
     void draw_hand(const frame::Frame& frame, const Prepare& prepare) const {
@@ -293,7 +295,7 @@ struct SceneView::Parts {
         if (hand) draw_hand(frame, prepare);
     }
 
-    /// The shadow map's view of the world.
+    /// The world as the light sees it, for the shadow map.
     struct Lamp {
         Eigen::Matrix4d light_from_world = Eigen::Matrix4d::Identity();
         double texel = 0;  // [m]
@@ -303,7 +305,7 @@ struct SceneView::Parts {
                const Overlays& overlays);
     Lamp render_shadows(const frame::Frame& frame, bool hand);
     void draw_patch(const PatchLook& look) const;
-    // `corner` and `size` are a pane's [pixels]
+    // `corner` and `size` are those of a pane [pixels]
     void draw_background(const Eigen::Vector2d& corner, const Eigen::Vector2d& size) const;
     void draw_surfaces(const frame::Frame& frame, const Viewpoint& viewpoint,
                        const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const Lamp& lamp,
@@ -380,7 +382,7 @@ Shown SceneView::Parts::draw(const frame::Frame& frame, std::span<const Pane> al
     if (detail == 1) {
         copy(samples, target.name(), width, height, GL_NEAREST);
     } else {
-        // a multisampled picture cannot be enlarged
+        // a multisampled picture cannot be scaled while it is copied
         copy(samples, resolved, width, height, GL_NEAREST);
         copy(resolved, target.name(), new_width, new_height, GL_LINEAR);
     }
@@ -394,7 +396,7 @@ void SceneView::set_detail(double share) {
     parts_->detail = share;
 }
 
-/// Requires the scissor test to be on.
+/// The scissor test must be enabled.
 void SceneView::Parts::draw_patch(const PatchLook& look) const {
     using display::Corner;
     const int edge = static_cast<int>(std::lround(look.patch.size * height));
@@ -472,7 +474,7 @@ void SceneView::Parts::draw_surfaces(const frame::Frame& frame, const Viewpoint&
     surface.use();
 }
 
-/// Draws targets transparent, so that things inside them are visible.
+/// Draws the targets as transparent, so that things inside them remain visible.
 void SceneView::Parts::draw_targets(const frame::Frame& frame) const {
     surface.set("gloss", 0.4);
     surface.set("alpha", 0.45);
@@ -490,8 +492,8 @@ void SceneView::Parts::draw_targets(const frame::Frame& frame) const {
     glDepthMask(GL_TRUE);
 }
 
-/// Draws ghosts over everything, since the handle of a finger that presses a body lies inside the
-/// body.
+/// Draws ghosts on top of everything, because the handle of a finger that presses a body is inside
+/// the body.
 void SceneView::Parts::draw_ghosts(const frame::Frame& frame) const {
     glDepthFunc(GL_ALWAYS);
     glDepthMask(GL_FALSE);
@@ -507,7 +509,7 @@ void SceneView::Parts::draw_ghosts(const frame::Frame& frame) const {
     glDepthMask(GL_TRUE);
 }
 
-/// Adds points of contact, and forces on fingers.
+/// Adds contact points and the forces on fingers.
 void SceneView::Parts::add_contacts(Solids& out, const frame::Frame& frame,
                                     const Overlays& overlays) const {
     const auto first_finger = static_cast<int>(bodies.size());
@@ -523,7 +525,7 @@ void SceneView::Parts::add_contacts(Solids& out, const frame::Frame& frame,
     }
 }
 
-/// Draws each solid twice: in full where it is in front of the bodies, faintly where they hide it.
+/// Draws each solid twice: faintly where bodies hide it, and fully where it is in front of them.
 void SceneView::Parts::draw_solids(const Solids& solids) const {
     if (solids.all().empty()) return;
     surface.set("gloss", 0.4);
@@ -544,7 +546,8 @@ void SceneView::Parts::draw_solids(const Solids& solids) const {
     draw_all();
 }
 
-/// Lines that show the point on the table below each finger, and its height.
+/// Adds a vertical line from each finger to the table, which shows the finger's height and the
+/// point below it.
 void SceneView::Parts::add_drop_lines(Solids& out, const frame::Frame& frame) const {
     constexpr double kRadius = 4e-4, kFoot = 3e-3;  // [m]
     for (size_t i = 0; i < fingers.size(); ++i) {
@@ -557,7 +560,7 @@ void SceneView::Parts::add_drop_lines(Solids& out, const frame::Frame& frame) co
     }
 }
 
-/// A box a little larger than the body, so that its edges are visible.
+/// Adds a box that is slightly larger than the body, so that its edges are visible.
 void SceneView::Parts::add_picked(Solids& out, const frame::Frame& frame, size_t body) const {
     constexpr double kFree = 0.002, kRadius = 0.0005;  // [m]
     const Thing& thing = bodies[body];

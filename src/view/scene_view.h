@@ -1,11 +1,11 @@
-// Draws a scene in the state that a Frame holds: bodies and proxies with the soft shadows of
-// README.md and, on request, overlays of invisible quantities. It does not depend on the source of
-// the Frame or the destination of the picture.
+// Draws a scene in the state described by a Frame: bodies and proxies with soft shadows (see
+// README.md) and, on request, overlays that show invisible quantities. SceneView does not depend on
+// where the Frame comes from or where the picture goes.
 //
-// SceneView needs OpenGL 3.3 core: the same context must be current whenever one of its functions
-// is called, the destructor included. It draws to the framebuffer that is bound for drawing, which
-// must have the format RGBA8 and must not be multisampled (SceneView smooths edges itself). It does
-// not restore other state of the context.
+// SceneView needs OpenGL 3.3 core, and the same context must be current whenever one of its
+// functions, including the destructor, is called. It draws to the framebuffer that is bound for
+// drawing, which must have the format RGBA8 and must not be multisampled (SceneView smooths edges
+// itself). Other state of the context is not restored.
 #pragma once
 
 #include <memory>
@@ -21,31 +21,31 @@
 
 namespace dihaptic::view {
 
-/// The workspace of a device: a box about the origin of D.
+/// The workspace of a device: a box centred at the origin of D.
 struct Workspace {
     Pose X_WD;
     Vec3 size = Vec3::Zero();  ///< edges [m]
 };
 
-/// The present state of the rig's patch.
+/// The current state of the rig's patch.
 struct PatchLook {
     display::Patch patch;
     bool white = false;
 };
 
-/// Items drawn besides bodies and proxies.
+/// Items drawn in addition to bodies and proxies.
 struct Overlays {
-    bool handles = false;                   ///< a ghost of each proxy at its handle
-    bool forces = false;                    ///< contact forces on each finger, 25 mm/N
-    bool contacts = false;                  ///< points of contact between bodies and fingers
+    bool handles = false;                   ///< a ghost of each proxy at the position of its handle
+    bool forces = false;                    ///< contact forces on each finger, drawn at 25 mm/N
+    bool contacts = false;                  ///< contact points between bodies and fingers
     bool grip_axis = false;                 ///< line from the first finger to the others' middle
-    bool joints = false;                    ///< axes, points and springs of joints
-    std::span<const Vec3> path;             ///< path of a body, in W [m]
-    std::span<const Workspace> workspaces;  ///< workspaces of devices
-    std::optional<PatchLook> patch;         ///< drawn once, regardless of the panes
+    bool joints = false;                    ///< axes, points and springs of the joints
+    std::span<const Vec3> path;             ///< path of a body to draw, in W [m]
+    std::span<const Workspace> workspaces;  ///< device workspaces to draw
+    std::optional<PatchLook> patch;         ///< patch, drawn only once, regardless of the panes
     bool drop_lines = false;                ///< line from each proxy down to the table
-    bool hand = false;             ///< a hand with the proxies as its thumb and index finger
-    std::optional<size_t> picked;  ///< a body marked by a box
+    bool hand = false;                      ///< hand whose thumb and index finger are the proxies
+    std::optional<size_t> picked;           ///< index of the body to mark with a box
 };
 
 /// The number and the time of the displayed frame.
@@ -55,39 +55,39 @@ struct Shown {
 };
 
 enum class Shadows {
-    variance,  ///< soft, and softer the higher the body that casts them
-    plain,     ///< hard, from one comparison of depths; used to measure the cost of soft shadows
+    variance,  ///< soft shadows, which are softer the higher the body is
+    plain,     ///< hard shadows from one depth comparison; used to measure the cost of soft ones
 };
 
-/// OpenGL's name of the renderer in the current context.
+/// OpenGL's name for the renderer of the current context.
 std::string renderer();
-/// Whether a renderer with this name uses the processor, not a graphics card.
+/// Whether a renderer with this name draws in software, without a graphics card.
 bool is_software(const std::string& renderer);
 
 class SceneView {
   public:
-    /// Makes models and shaders. Throws Error when the current context is older than OpenGL 3.3.
+    /// Creates models and shaders. Throws Error when the current context is older than OpenGL 3.3.
     explicit SceneView(const scene::Scene& scene, Shadows shadows = Shadows::variance);
     ~SceneView();
     SceneView(const SceneView&) = delete;
     SceneView& operator=(const SceneView&) = delete;
 
-    /// Draws a frame of this scene, `width` x `height` pixels from the framebuffer's lower left,
-    /// and returns its stamp.
+    /// Draws a frame of the scene into the lower left `width` x `height` pixels of the framebuffer.
+    /// Returns the frame's number and time.
     Shown draw(const frame::Frame& frame, const Camera& camera, int width, int height,
                const Overlays& overlays = {});
-    /// Draws the frame as the eyes see it on a display.
+    /// Draws the frame as the person's eyes see it on a display.
     Shown draw(const frame::Frame& frame, const display::Display& display, int width, int height,
                const Overlays& overlays = {});
-    /// Draws the frame in parts, each from its own viewpoint.
+    /// Draws the frame in several panes, each with its own viewpoint.
     Shown draw(const frame::Frame& frame, std::span<const Pane> panes, int width, int height,
                const Overlays& overlays = {});
 
-    /// Share of their width and height at which pictures are drawn before they are enlarged, for
-    /// machines that draw in software. Initially 1.
+    /// Sets the resolution at which pictures are drawn before being enlarged, as a share of their
+    /// width and height, for machines that draw in software. The default is 1.
     void set_detail(double share);
 
-    /// Unit vector toward the main light, in W.
+    /// Unit vector toward the main light source, in W.
     static Vec3 light();
 
   private:

@@ -2,9 +2,9 @@
 
 namespace dihaptic::view::shaders {
 
-// Writes both moments of the depth below the light; a quarter of the squared slope is the variance
-// of the depth within a texel of a tilted surface (README.md). The slope is limited to two in one:
-// the light hardly sees a steeper surface, and its variance would only let light through.
+// Writes the first two moments of the depth below the light. A quarter of the squared slope is the
+// variance of the depth within a texel if the surface is tilted (README.md). The slope is limited
+// to 2: steeper surfaces hardly receive light, and their variance would only let light through.
 const char* const kMomentsVertex = R"(
 layout(location = 0) in vec3 position;
 uniform mat4 world_from_model;
@@ -36,8 +36,8 @@ void main() {
 }
 )";
 
-// The binomial weights 1 4 6 4 1 are a Gaussian of one texel. Two neighbours are read at once, at
-// the point where linear interpolation gives them these weights.
+// The binomial weights 1 4 6 4 1 approximate a Gaussian with a standard deviation of one texel. Two
+// neighbours are read at once, at the point where linear interpolation weights them in this ratio.
 const char* const kBlurFragment = R"(
 in vec2 uv;
 uniform sampler2D source;

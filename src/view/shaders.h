@@ -1,13 +1,14 @@
-// The source of the shaders. For the sources of this folder only.
+// The source code of the shaders. Only for use by the sources in this folder.
 #pragma once
 
 namespace dihaptic::view::shaders {
 
 extern const char* const kMomentsVertex;
 extern const char* const kMomentsFragment;
-extern const char* const kBlurVertex;  ///< one triangle over the whole framebuffer
+extern const char* const kBlurVertex;  ///< draws one triangle over the whole framebuffer
 extern const char* const kBlurFragment;
-/// Functions background() and encode(), prepended to kBackgroundFragment and kSurfaceFragment.
+/// The functions background() and encode(), to be prepended to kBackgroundFragment and
+/// kSurfaceFragment.
 extern const char* const kBackground;
 extern const char* const kBackgroundFragment;
 extern const char* const kSurfaceVertex;

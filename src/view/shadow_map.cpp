@@ -86,9 +86,9 @@ void ShadowMap::render(const Eigen::Matrix4d& light_from_world, double depth_ran
     glBindVertexArray(0);
 }
 
-/// Blurs along rows into the other texture, and along columns back. Below the finest level the rows
-/// are read from the next finer level: two of its texels make one texel of this level, and linear
-/// interpolation gives their mean.
+/// Blurs along the rows into the other texture, and from there along the columns back into this
+/// one. Except at the finest level, the rows are read from the next finer level: two of its texels
+/// make one texel of this level, and linear interpolation gives their mean.
 void ShadowMap::blur(int level) const {
     const int size = size_ >> level;
     const int from = level > 0 ? level - 1 : 0;
@@ -97,8 +97,8 @@ void ShadowMap::blur(int level) const {
                           const Eigen::Vector2d& texel) {
         glBindFramebuffer(GL_FRAMEBUFFER, target);
         glBindTexture(GL_TEXTURE_2D, source);
-        // reading one level of a texture while rendering to another is defined only if no other
-        // level can be read
+        // rendering to one level of a texture while reading another is defined only if the reading
+        // is limited to that other level
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, source_level);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, source_level);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);

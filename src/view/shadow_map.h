@@ -1,5 +1,5 @@
-// The variance shadow map: a pyramid of the first two moments of depth (README.md). For the sources
-// of this folder only.
+// The variance shadow map: a pyramid of the first two moments of depth (README.md). Only for use by
+// the sources in this folder.
 #pragma once
 
 #include <functional>
@@ -11,15 +11,15 @@ namespace dihaptic::view {
 
 class ShadowMap {
   public:
-    /// `size`: number of texels across the finest level, a power of two. The coarsest level has
-    /// sixteen.
+    /// `size`: width of the finest level in texels, a power of two. The coarsest level is sixteen
+    /// texels wide.
     explicit ShadowMap(int size);
 
-    /// Renders moments. `light_from_world` takes W to x, y from -1 to 1 over the map and z, the
-    /// depth along the light [m]. `draw` draws everything that casts and receives shadows, and sets
-    /// world_from_model for each model. `depth_range`: largest depth [m]; `texel`: size of a texel
-    /// of the finest level [m]. Without `blurred`, only the finest level is rendered, and it is
-    /// left unblurred. Leaves another framebuffer bound.
+    /// Renders the moments. `light_from_world` transforms W to x and y, which range from -1 to 1
+    /// over the map, and z, the depth along the light [m]. `draw` must draw everything that casts
+    /// or receives shadows, and set world_from_model for each model. `depth_range`: largest depth
+    /// [m]. `texel`: size of a texel at the finest level [m]. `blurred`: if false, only the finest
+    /// level is rendered, without blur. Leaves a different framebuffer bound.
     void render(const Eigen::Matrix4d& light_from_world, double depth_range, double texel,
                 bool blurred, const std::function<void(const gl::Program&)>& draw) const;
 
@@ -35,7 +35,7 @@ class ShadowMap {
     gl::Program blur_;
     gl::VertexArray nothing_;
     gl::Texture moments_;
-    gl::Texture rows_;  // blurred along rows only
+    gl::Texture rows_;  // result of blurring along the rows only
     gl::Renderbuffer depth_;
     std::vector<gl::Framebuffer> to_moments_;  // by level
     std::vector<gl::Framebuffer> to_rows_;

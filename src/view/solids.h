@@ -1,4 +1,4 @@
-// Solids for overlays: tubes, arrows and balls over the picture of a scene.
+// Solids that are drawn over the picture of a scene: tubes, arrows and balls.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace dihaptic::view {
 
-/// A linear colour from "#rrggbb".
+/// The linear colour for a text of the form "#rrggbb".
 inline Vec3 ink(const char* hex) {
     return linear_colour(hex);
 }
@@ -30,7 +30,7 @@ class Solids {
     void add(const Triangles& what, const Pose& X, const Vec3& tint) {
         add(made_.emplace_back(what), gl::matrix(X), tint);
     }
-    /// `ball`: a ball of radius 1.
+    /// `ball`: a model of a ball of radius 1.
     void add_ball(const gl::Model& ball, const Vec3& p, double radius, const Vec3& tint) {
         Eigen::Matrix4d world_from_ball = gl::matrix({Quat::Identity(), p});
         world_from_ball.topLeftCorner<3, 3>() *= radius;
@@ -42,7 +42,7 @@ class Solids {
     const std::vector<Solid>& all() const { return all_; }
 
   private:
-    std::deque<gl::Model> made_;  // a deque, since all_ points into it while it grows
+    std::deque<gl::Model> made_;  // a deque, because all_ points into it while it grows
     std::vector<Solid> all_;
 };
 

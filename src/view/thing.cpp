@@ -7,8 +7,8 @@
 namespace dihaptic::view {
 namespace {
 
-/// Planes, and fixed bodies larger than this, are ground on which other bodies stand: they get the
-/// grid, and the shadow map is not widened for them.
+/// Planes, and fixed bodies larger than this, count as ground on which other bodies stand: the grid
+/// is drawn on them, and the shadow map is not widened to cover them.
 constexpr double kGround = 0.3;  // [m]
 bool is_ground(const scene::Body& body) {
     return body.shape.kind == scene::ShapeKind::plane ||

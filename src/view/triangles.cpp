@@ -13,10 +13,11 @@ namespace dihaptic::view {
 namespace {
 
 using std::numbers::pi;
-constexpr int kRound = 48;             // segments of a full circle
-constexpr int kBevel = 3;              // segments of half a rounded edge
+constexpr int kRound = 48;             // number of segments of a full circle
+constexpr int kBevel = 3;              // number of segments of half a rounded edge
 constexpr double kMostBevel = 1.2e-3;  // largest radius of a rounded edge [m]
-/// Faces of a mesh that meet at a smaller angle are shaded as one smooth surface.
+/// If the angle between two faces of a mesh is smaller than this, they are shaded as one smooth
+/// surface.
 const double kSmooth = std::cos(40 * pi / 180);
 
 double bevel(double smallest_edge) {
@@ -28,7 +29,7 @@ uint32_t add(Triangles& out, const Vec3& p, const Vec3& n) {
     return static_cast<uint32_t>(out.vertices.size() - 1);
 }
 
-/// Makes two triangles of each cell of a grid of vertices.
+/// Adds two triangles for each cell of a grid of vertices.
 void add_grid(Triangles& out, uint32_t first, uint32_t rows, uint32_t columns) {
     for (uint32_t i = 0; i + 1 < rows; ++i) {
         for (uint32_t j = 0; j + 1 < columns; ++j) {
@@ -39,12 +40,13 @@ void add_grid(Triangles& out, uint32_t first, uint32_t rows, uint32_t columns) {
     }
 }
 
-/// A box is its core, smaller by the bevel r, and a sphere of radius r rolled over it. A point q of
-/// the sharp box at core + r tan(angle) goes to the sphere about the nearest point of the core.
+/// A rounded box is a core, smaller than the box by the bevel r, plus a sphere of radius r rolled
+/// over the core. A point q of the sharp box at core + r tan(angle) is moved to the sphere about
+/// the nearest point of the core.
 Triangles box(const Vec3& size) {
     const double r = bevel(size.minCoeff());
     const Vec3 core = size / 2 - Vec3::Constant(r);
-    // offsets beyond the core, in units of r; negative at the low side
+    // offsets from the core, in units of r; negative on the low side
     std::array<double, 2 * (kBevel + 1)> steps{};
     for (int i = 0; i <= kBevel; ++i) {
         const double out = std::tan(pi / 4 * i / kBevel);
@@ -59,7 +61,7 @@ Triangles box(const Vec3& size) {
             const auto first = static_cast<uint32_t>(out.vertices.size());
             for (size_t i = 0; i < steps.size(); ++i) {
                 for (size_t j = 0; j < steps.size(); ++j) {
-                    // the grid runs the other way round on the low side, so that it faces outward
+                    // on the low side, the grid runs the other way round, so that it faces outward
                     const size_t k = side > 0 ? j : steps.size() - 1 - j;
                     const double low_u = 2 * i < steps.size() ? -1 : 1;
                     const double low_v = 2 * k < steps.size() ? -1 : 1;
@@ -85,12 +87,12 @@ Triangles box(const Vec3& size) {
     return out;
 }
 
-/// A point of a profile in the plane of radius and z, and the outward normal at it.
+/// A point of a profile, given by radius and z, and the outward normal at this point.
 struct Profile {
     double r, z, n_r, n_z;
 };
 
-/// The surface of a profile, given from bottom to top, that is turned about z.
+/// The surface made by rotating a profile, given from bottom to top, about the z axis.
 Triangles lathe(std::span<const Profile> profile) {
     Triangles out;
     for (const Profile& at : profile) {
@@ -115,7 +117,7 @@ void add_arc(std::vector<Profile>& profile, double r, double z, double radius, d
     }
 }
 
-/// A capsule: two half-spheres and the cylinder between them; a sphere if `length` is 0.
+/// A capsule, i.e. a cylinder between two half-spheres; a sphere if `length` is 0.
 Triangles capsule(double radius, double length) {
     std::vector<Profile> profile;
     add_arc(profile, 0, -length / 2, radius, -pi / 2, 0, kRound / 4);
@@ -135,7 +137,7 @@ Triangles cylinder(double radius, double length) {
 Triangles cone(double radius, double length) {
     const double b = bevel(std::min(2 * radius, length));
     const double lean = std::atan2(radius, length);
-    // point where the rounded edge is as far from the side as from the base
+    // radius at which the rounded edge is as far from the side as from the base
     const double r = ((length - b) * std::sin(lean) - b) / std::cos(lean);
     std::vector<Profile> profile{{0, -length / 2, 0, -1}};
     add_arc(profile, r, -length / 2 + b, b, -pi / 2, lean, 2 * kBevel);
@@ -143,8 +145,8 @@ Triangles cone(double radius, double length) {
     return lathe(profile);
 }
 
-/// Each corner of a face gets the area-weighted mean normal of those faces meeting there that are
-/// nearly parallel to this face.
+/// At each corner of a face, the normal is the area-weighted mean over those faces at the corner
+/// that are nearly parallel to this face.
 Triangles polyhedron(std::span<const Vec3> vertices, std::span<const std::vector<int>> faces) {
     struct At {
         Vec3 area;
@@ -188,7 +190,7 @@ const Eigen::Vector3f kNoColour =
 Triangles coloured(const scene::Mesh& mesh) {
     Triangles out = polyhedron(mesh.vertices, mesh.faces);
     if (mesh.colours.empty()) return out;
-    // each corner of each face is a separate vertex
+    // every corner of every face is a separate vertex
     for (const std::vector<int>& face : mesh.faces) {
         for (const int v : face) {
             const int32_t rgb = mesh.colours[static_cast<size_t>(v)];
@@ -282,9 +284,9 @@ Triangles tube(std::span<const Vec3> path, double radius) {
         const Vec3& before = points[i > 0 ? i - 1 : 0];
         const Vec3& after = points[std::min(i + 1, points.size() - 1)];
         Vec3 along = after - before;
-        if (along.norm() < 1e-9) along = points[i] - before;  // the path turns back on itself
+        if (along.norm() < 1e-9) along = points[i] - before;  // here, the path turns back on itself
         along.normalize();
-        // `across` is carried along the path without twist
+        // `across` is moved along the path without twisting
         across -= across.dot(along) * along;
         across = across.norm() > 1e-6 ? Vec3(across.normalized()) : along.unitOrthogonal();
         const auto cap = [&](double side) {

@@ -29,7 +29,7 @@ constexpr size_t kWritten = 16'000'000;  // [bytes]
 constexpr size_t kFingers = 2;
 constexpr double kTick = 1e-3;  // [s]
 
-/// Decodes a path as written in mountinfo: \040 is a blank.
+/// Decodes a path from mountinfo, in which e.g. a space is written as \040.
 std::string unescaped(const std::string& text) {
     std::string out;
     for (size_t i = 0; i < text.size(); ++i) {
@@ -50,8 +50,8 @@ bool is_in(const std::string& folder, const std::string& mount) {
            (folder.size() == mount.size() || folder[mount.size()] == '/');
 }
 
-/// Returns the speed at which a file in the folder is written and synchronised [bytes/s]. Throws
-/// Error when this fails.
+/// Writes and synchronises a file in the folder, and returns the speed [bytes/s]. Throws Error when
+/// writing fails.
 double write_speed(const std::string& folder) {
     std::string name = folder + "/dihaptic-doctor-XXXXXX";
     const Descriptor file(mkostemp(name.data(), O_CLOEXEC));
@@ -60,11 +60,11 @@ double write_speed(const std::string& folder) {
                      "");
     };
     if (!file) throw refused();
-    unlink(name.c_str());  // whatever happens from here on, no file remains
+    unlink(name.c_str());  // the file is removed even if something fails from here on
     const std::vector<char> block(1'000'000, 'd');
     const auto began = std::chrono::steady_clock::now();
     for (size_t written = 0; written < kWritten;) {
-        // a disk that fills up accepts part of a block, and refuses the rest
+        // a disk that becomes full accepts only part of a block
         const ssize_t size = write(file.get(), block.data(), block.size());
         if (size <= 0) throw refused();
         written += static_cast<size_t>(size);
@@ -99,7 +99,7 @@ std::string file_system(const std::string& mounts, const std::string& folder) {
         std::string mount;
         for (int i = 0; i < 5; ++i) before >> mount;
         mount = unescaped(mount);
-        // of two mounts at one point, the later one is visible
+        // if two file systems are mounted at the same point, the later one is visible
         if (rest == std::string::npos || !is_in(folder, mount) || mount.size() < best.size())
             continue;
         best = mount;

@@ -11,9 +11,9 @@ namespace dihaptic::doctor {
 namespace {
 
 constexpr size_t kWidth = 110;
-constexpr size_t kIndent = 24;  // indentation of the lines after the first
+constexpr size_t kIndent = 24;  // indentation of all lines but the first
 
-/// The text in lines no longer than `width`, unless a single word is longer.
+/// Wraps the text into lines no longer than `width`, unless a single word is longer.
 std::string wrapped(const std::string& text, size_t width, const std::string& indent) {
     std::istringstream words(text);
     std::string out;
@@ -44,7 +44,7 @@ std::string to_json(const Findings& findings) {
     auto all = nlohmann::json::array();
     for (const Finding& f : findings)
         all.push_back({static_cast<int>(f.verdict), f.what, f.found, f.commands, f.needed});
-    // names given by drivers may be invalid UTF-8
+    // names reported by drivers may be invalid UTF-8
     return all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -1,5 +1,5 @@
 // An entry in the report of `dihaptic doctor`: the finding, its meaning for an experiment, and the
-// commands that solve a problem.
+// commands that solve the problem.
 #pragma once
 
 #include <array>
@@ -16,19 +16,19 @@ constexpr auto enum_names(Verdict) {
 struct Finding {
     Verdict verdict = Verdict::note;
     std::string what;                   ///< e.g. "kernel"
-    std::string found;                  ///< the finding, with its consequence for an experiment
-    std::vector<std::string> commands;  ///< commands that solve the problem, in this order
-    /// Whether sessions on simulated devices, too, require what was checked.
+    std::string found;                  ///< the finding and its consequence for an experiment
+    std::vector<std::string> commands;  ///< commands that solve the problem, to be typed in order
+    /// Whether the checked item is required even by sessions on simulated devices.
     bool needed = false;
 };
 using Findings = std::vector<Finding>;
 
-/// The printed lines of the finding.
+/// The finding as printed, in one or several lines.
 std::string to_text(const Finding& finding);
 
-/// Encodes the finding in one line, for another process.
+/// Encodes the findings in one line, for another process.
 std::string to_json(const Findings& findings);
-/// Throws std::exception when the text is not from to_json().
+/// Decodes the text of to_json(). Throws std::exception when the text does not come from it.
 Findings from_json(const std::string& text);
 
 }  // namespace dihaptic::doctor

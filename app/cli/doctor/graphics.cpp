@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The graphics cards' render files that this user cannot open.
+/// Render files of graphics cards that this user may not open.
 std::vector<std::string> closed_cards(const std::string& root, const MayOpen& may_open) {
     std::vector<std::string> out;
     std::error_code failed;

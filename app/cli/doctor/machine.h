@@ -1,5 +1,5 @@
-// The system's information on itself and on the user. `root` is put before the path of each system
-// file: "", or in tests a folder with the files of another machine.
+// Information from the system about itself and the user. `root` is prepended to the path of each
+// system file: it is "" or, in tests, a folder with the files of another machine.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace dihaptic::doctor {
 
-/// The content of a small file, without the line end; "" if it cannot be read.
+/// The contents of a small file, without the final line end; "" if the file cannot be read.
 std::string text_of(const std::string& file);
 
-/// "Docker" and the like; "" outside of containers.
+/// Name of the container in which the program runs, e.g. "Docker"; "" outside containers.
 std::string container(const std::string& root);
 bool is_virtual_machine(const std::string& root);
 
-/// The rights of this process.
+/// The rights that this process has.
 struct Rights {
-    int priority = 0;  ///< the priority requested
+    int priority = 0;  ///< the requested priority
     servo::RealTime::Refusals refusals;
-    bool unlimited_memory = false;  ///< whether unlimited memory may be locked
+    bool unlimited_memory = false;  ///< whether the process may lock an unlimited amount of memory
     bool root = false;
     std::string user;
     std::set<std::string> groups;
@@ -33,7 +33,7 @@ Rights rights_now(int priority);
 /// The group whose members may use real-time scheduling and the devices.
 constexpr const char* kGroup = "haptics";
 
-/// Commands that add a udev rule, and that make the user a member of the group.
+/// The commands that add a udev rule and, below, those that make the user a member of the group.
 std::vector<std::string> add_udev_rule(const std::string& rule);
 std::vector<std::string> join_group();
 

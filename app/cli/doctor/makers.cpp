@@ -13,7 +13,8 @@ Findings of_maker(const std::string& backend, const devices::Survey& survey) {
              fmt::format("{}{}: {}", device.model,
                          device.serial.empty() ? "" : ", serial " + device.serial, device.state),
              {}});
-    // a laboratory usually has devices from one maker, and lacks nothing without the others' parts
+    // a laboratory usually has devices from one maker only, and does not need other makers'
+    // libraries
     if (!survey.missing.empty()) out.push_back({Verdict::note, backend, survey.missing, {}});
     return out;
 }

@@ -1,4 +1,4 @@
-// Finds a maker's devices through the maker's library, like `dihaptic devices`.
+// Finds the devices of a maker through the maker's library, as `dihaptic devices` does.
 #pragma once
 
 #include "cli/doctor/finding.h"
@@ -6,7 +6,7 @@
 
 namespace dihaptic::doctor {
 
-/// `backend`: name of the backend.
+/// `backend`: name of the maker's backend.
 Findings of_maker(const std::string& backend, const devices::Survey& survey);
 
 }  // namespace dihaptic::doctor

@@ -15,7 +15,7 @@ struct Part {
     bool needed;
 };
 
-/// Dihaptic's other programs, which the program dihaptic calls.
+/// Dihaptic's other programs, which `dihaptic` calls.
 constexpr std::array kParts{
     Part{"dihaptic-mesh", "reads meshes", true},
     Part{"dihaptic-decompose", "cuts concave meshes", true},
@@ -24,7 +24,7 @@ constexpr std::array kParts{
     Part{"dihaptic-gui", "shows the operator's window", false},
 };
 
-/// Whether Dihaptic was installed from its packages, not built in its own folder.
+/// Whether Dihaptic was installed from its packages, rather than built in a source folder.
 bool is_package(const std::string& shipped) {
     return shipped.starts_with("/usr/");
 }

@@ -1,5 +1,5 @@
-// Checks whether Dihaptic is complete: the programs next to this one, the other projects' programs
-// that it calls, and the shipped files.
+// Checks whether Dihaptic is complete: the programs next to this one, the programs of other
+// projects that it calls, and the shipped files.
 #pragma once
 
 #include <functional>
@@ -9,9 +9,9 @@
 
 namespace dihaptic::doctor {
 
-/// `companion`: the path of one of Dihaptic's programs; "" if it is missing. `paths`: PATH.
-/// `shipped`: the folder with the shipped files; "" if it is missing. `python`: the folder of the
-/// Python package; "" if it is missing.
+/// `companion`: returns the path of one of Dihaptic's programs, or "" if it is missing. `paths`:
+/// value of PATH. `shipped`: the folder with the shipped files; "" if it is missing. `python`: the
+/// folder of the Python package; "" if it is missing.
 Findings parts(const std::function<std::string(const std::string&)>& companion,
                const std::string& paths, const std::string& shipped, const std::string& python);
 

@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Devices that this program itself opens through USB, not through their maker's service.
+/// A device that this program opens directly through USB, not through its maker's service.
 struct Known {
     const char* name;
     const char* vendor;
-    const char* product;  ///< "" stands for any product of the vendor
+    const char* product;  ///< "" matches any product of the vendor
 
     std::string rule() const {
         return fmt::format(
@@ -29,7 +29,7 @@ struct Known {
 };
 constexpr std::array kKnown{Known{"Force Dimension", "1451", ""}, Known{"Falcon", "0403", "cb48"}};
 
-/// Sorted paths of the entries of a folder; none if there is no such folder.
+/// Sorted paths of the entries of a folder; empty if the folder does not exist.
 std::vector<std::string> in(const std::string& folder) {
     std::vector<std::string> out;
     std::error_code failed;
@@ -46,7 +46,7 @@ int number_in(const std::string& file) {
     return out;
 }
 
-/// Files through which the plugged-in devices of a kind are opened.
+/// Files through which plugged-in devices of this kind are opened.
 std::vector<std::string> plugged_in(const std::string& root, const Known& known) {
     std::vector<std::string> out;
     for (const std::string& device : in(root + "/sys/bus/usb/devices")) {
@@ -58,7 +58,7 @@ std::vector<std::string> plugged_in(const std::string& root, const Known& known)
     return out;
 }
 
-/// The file with a rule for this device; "" if there is none.
+/// The file that contains a udev rule for this device; "" if there is none.
 std::string rule_file(const std::string& root, const Known& known) {
     for (const char* folder : {"/etc", "/run", "/usr/lib", "/lib"}) {
         for (const std::string& file : in(root + folder + "/udev/rules.d")) {

@@ -1,4 +1,4 @@
-// Checks whether this user may open the USB devices and serial lines that are plugged in.
+// Checks whether this user may open the USB devices and serial ports that are plugged in.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 
 namespace dihaptic::doctor {
 
-/// Whether the user may read and write this file.
+/// Whether the user may read and write a file.
 using MayOpen = std::function<bool(const std::string& file)>;
 
 Findings ports(const std::string& root, const MayOpen& may_open);

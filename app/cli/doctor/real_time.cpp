@@ -23,12 +23,12 @@ std::string add_limit(const std::string& limit) {
                        limit);
 }
 
-/// The command that starts a container whose root user has the rights that `option` grants.
+/// The command that starts a container with `option`, which grants rights to its root user.
 std::string start_container(const std::string& option) {
     return fmt::format("docker run {} ...    # starts the container again", option);
 }
 
-/// The release of a kernel installed by Debian's package; "" if there is none.
+/// The release of the real-time kernel installed from Debian's package; "" if there is none.
 std::string real_time_kernel_on_disk(const std::string& root) {
     const std::string begin = "vmlinuz-";
     const std::string end = fmt::format("-rt-{}", kArchitecture);
@@ -124,7 +124,7 @@ Finding wakefulness(const std::string& root, const Rights& rights) {
     return {Verdict::ok, kWhat, "processors can be kept from deep sleep: they wake at once", {}};
 }
 
-/// Whether the user is a member according to the system's list, which is read at log-in.
+/// Whether the system's list of groups, which is read at login, names the user as a member.
 bool is_listed(const std::string& root, const std::string& user) {
     std::istringstream lines(text_of(root + "/etc/group"));
     for (std::string line; std::getline(lines, line);) {
@@ -137,7 +137,7 @@ bool is_listed(const std::string& root, const std::string& user) {
     return false;
 }
 
-/// Checks membership in the group for which the rules above are made.
+/// Checks whether the user is a member of the group to which the rules above give access.
 Finding membership(const std::string& root, const Rights& rights) {
     if (rights.groups.contains(kGroup))
         return {Verdict::ok, "group", fmt::format("{} is a member of {}", rights.user, kGroup), {}};

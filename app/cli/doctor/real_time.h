@@ -1,4 +1,4 @@
-// Checks whether ticks can be on time here: the version of Linux, and this user's rights.
+// Checks whether ticks can be on time on this machine: the Linux kernel, and this user's rights.
 #pragma once
 
 #include "cli/doctor/finding.h"

@@ -66,12 +66,12 @@ Findings look_from_outside(const Section& section) {
     std::error_code ignored;
     task.program = std::filesystem::read_symlink("/proc/self/exe", ignored).filename().string();
     task.arguments = {"doctor", "--section", section.name};
-    // a graphics driver may reserve any amount of address space
+    // a graphics driver may reserve any amount of address space, so it is not limited
     task.limits = {kPatience, kPatience, std::numeric_limits<uint64_t>::max(), 1 << 30};
     task.what = "the check";
     try {
         const std::string said = run_companion(task, "").value_or("");
-        // libraries may have printed text before
+        // libraries may have printed text before the last line
         return from_json(said.substr(said.rfind('\n') + 1));
     } catch (const Error& e) {
         return {section.failed(e.problems().front().what)};
@@ -81,7 +81,7 @@ Findings look_from_outside(const Section& section) {
 }
 
 void look_inside(const std::string& name) {
-    // this process may be ended at any moment
+    // this process may be killed at any moment
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
     const std::vector<Section> all = sections();
     const auto section =
@@ -96,7 +96,7 @@ void look_inside(const std::string& name) {
     std::fflush(stdout);
     fmt::print("\n{}", to_json(found));
     std::fflush(stdout);
-    std::_Exit(0);  // drivers may fail once more when they are unloaded
+    std::_Exit(0);  // without destructors: drivers may fail when unloaded
 }
 
 }  // namespace dihaptic::doctor

@@ -1,4 +1,4 @@
-// The sections of the report, in order.
+// The sections of the doctor's report, in order.
 #pragma once
 
 #include <functional>
@@ -11,12 +11,13 @@ namespace dihaptic::doctor {
 
 struct Section {
     std::string heading;
-    std::string name;  ///< unique name: several sections may share a heading
+    std::string name;  ///< unique name, because several sections may share a heading
     std::function<Findings()> look;
-    /// The remedy when the check fails; given for requirements of sessions on simulated devices.
+    /// The remedy when the check itself fails; given only for checks that sessions on simulated
+    /// devices require.
     std::vector<std::string> otherwise = {};
 
-    /// A finding that replaces the section's own: the reason why the check failed.
+    /// The finding that replaces the section's own when the check fails. `why`: the reason.
     Finding failed(const std::string& why) const {
         const bool needed = !otherwise.empty();
         return {needed ? Verdict::lacks : Verdict::note, name, why, otherwise, needed};
@@ -25,12 +26,12 @@ struct Section {
 
 std::vector<Section> sections();
 
-/// The findings of a section, from a separate process: a driver that hangs or crashes there is a
-/// finding like any other.
+/// Checks a section in a separate process and returns its findings: a driver that hangs or crashes
+/// there is reported like any other finding.
 Findings look_from_outside(const Section& section);
 
-/// In that process: writes the findings of the section with this name to standard output, for
-/// look_from_outside().
+/// Runs in that process: writes the findings of the section with this name to standard output,
+/// where look_from_outside() reads them.
 void look_inside(const std::string& name);
 
 }  // namespace dihaptic::doctor

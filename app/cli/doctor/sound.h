@@ -1,4 +1,4 @@
-// Checks whether a task's sounds can be heard.
+// Checks whether the sounds of a task can be heard.
 #pragma once
 
 #include "cli/doctor/finding.h"
@@ -6,9 +6,9 @@
 
 namespace dihaptic::doctor {
 
-/// `failure`: reason why the sound device cannot be opened.
+/// The finding when there is no sound. `failure`: reason why the sound device cannot be opened.
 Finding silence(const std::string& root, const std::string& failure, const MayOpen& may_open);
-/// Opens the system's sound device for a moment.
+/// Checks whether the system's sound device can be opened.
 Finding sound(const std::string& root, const MayOpen& may_open);
 
 }  // namespace dihaptic::doctor

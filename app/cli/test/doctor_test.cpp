@@ -1,4 +1,5 @@
-// Shows the doctor other machines, as folders with the files that Linux would have on them.
+// Tests the doctor on other machines, each represented by a folder with the files that Linux would
+// have there.
 #include <gtest/gtest.h>
 
 #include <cerrno>
@@ -19,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A machine that has only the files passed to put().
+/// A simulated machine that has only the files added with put().
 class Machine {
   public:
     void put(const std::string& file, const std::string& text) const {
@@ -53,7 +54,7 @@ bool none_open(const std::string&) {
     return false;
 }
 
-/// A laboratory's machine as it should be.
+/// A laboratory computer on which everything is as it should be.
 class GoodMachine : public Machine {
   public:
     GoodMachine() {
@@ -109,7 +110,7 @@ TEST(Doctor, KnowsAKernelThatKeepsTimeByItsVersionToo) {
 }
 
 // Version strings in /boot/vmlinuz-* of Debian's kernel packages. The standard kernel of Debian 13
-// is also built without PREEMPT_RT, although the source has it.
+// is built without PREEMPT_RT, too, although its source contains it.
 TEST(Doctor, TellsDebiansKernelsApart) {
     const GoodMachine machine;
     fs::remove(machine.root() + "/sys/kernel/realtime");
@@ -203,7 +204,7 @@ TEST(Doctor, SaysWhenMemoryIsLockedInPartOnly) {
     const Finding memory = of(real_time(machine.root(), rights), "memory");
     EXPECT_EQ(memory.verdict, Verdict::note);
     EXPECT_NE(commands(memory).find("memlock unlimited"), std::string::npos);
-    rights.root = true;  // outside any container
+    rights.root = true;  // root, outside any container
     EXPECT_EQ(commands(of(real_time(machine.root(), rights), "memory")).find("ulimit -l unlimited"),
               0u);
 }
@@ -371,7 +372,7 @@ TEST(Doctor, FindsTheFileSystemOfAFolder) {
     EXPECT_EQ(file_system(kMounts, "/srv/study"), "ext4");
     EXPECT_EQ(file_system(kMounts, "/tmp"), "tmpfs");
     EXPECT_EQ(file_system(kMounts, "/tmpfiles"), "ext4");
-    EXPECT_EQ(file_system(kMounts, "/home/ada/study"), "nfs4");  // mounted over the autofs
+    EXPECT_EQ(file_system(kMounts, "/home/ada/study"), "nfs4");  // mounted on top of the autofs
     EXPECT_EQ(file_system(kMounts, "/mnt/my disk/study"), "cifs");
     EXPECT_EQ(file_system("", "/tmp"), "");
     EXPECT_EQ(file_system("damaged\n - \n", "/tmp"), "");
@@ -385,7 +386,7 @@ TEST(Doctor, TellsDisksThatOneShouldNotRecordTo) {
     EXPECT_NE(kind_of_disk("overlay", System::container).found.find("lost when it is removed"),
               std::string::npos);
     EXPECT_EQ(kind_of_disk("overlay", System::live).verdict, Verdict::lacks);
-    EXPECT_EQ(kind_of_disk("ext4", System::live).verdict, Verdict::ok);  // the stick itself
+    EXPECT_EQ(kind_of_disk("ext4", System::live).verdict, Verdict::ok);  // the USB stick itself
 }
 
 TEST(Doctor, ComparesTheDiskWithASession) {

@@ -1,4 +1,4 @@
-// Tests the message of the window when Python draws no page.
+// Tests the message that the window shows when Python does not draw a page.
 #include "common/drawn_report.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ TEST(DrawnReport, ThatPythonRefusesTellsTheWindowWhy) {
     } catch (const Error& e) {
         const std::string why = e.what();
         EXPECT_EQ(why.find(folder.path() + ": error: has no report.html, because "), 0u) << why;
-        // under a sanitizer the Python package is not built
+        // when a sanitizer is used, the Python package is not built
         if (in_or_above_program({"python/dihaptic/facts.json"}).empty()) return;
         EXPECT_NE(why.find("contains no completed sessions"), std::string::npos) << why;
     }

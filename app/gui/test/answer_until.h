@@ -1,4 +1,4 @@
-// Waits for events in the window's event loop.
+// Runs the window's event loop in tests until a condition holds.
 #pragma once
 
 #include <QCoreApplication>
@@ -8,8 +8,8 @@
 
 namespace dihaptic::gui {
 
-/// Handles events until `condition` holds, and calls `each_time` between them; false when that
-/// takes more than twenty seconds.
+/// Handles events until `condition` holds, and calls `each_time` in between. Returns false if this
+/// takes longer than twenty seconds.
 template <class Condition, class Step>
 bool answer_until(const Condition& condition, const Step& each_time) {
     constexpr qint64 kPatience = 20000;  // [ms]

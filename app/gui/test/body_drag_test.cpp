@@ -1,4 +1,4 @@
-// Tests how a body is moved in the picture.
+// Tests how dragging in the picture moves a body.
 #include "body_drag.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace dihaptic::gui::body_drag_test {
 namespace {
 
-/// A camera at this azimuth that looks at the origin from above.
+/// A camera at the given azimuth that looks at the origin from above.
 view::Camera camera_at(double azimuth) {
     view::Camera out;
     out.look_at = Vec3::Zero();
@@ -29,7 +29,7 @@ TEST(BodyDrag, FollowsThePointerInTheTablesPlaneUpAndAround) {
     EXPECT_NEAR((drag.way().way - Vec3(0.04, -0.05, 0)).norm(), 0, 1e-12);
     drag.follow(to({0.05, -0.03, 0.14}), {9, 9}, Qt::ShiftModifier);
     EXPECT_NEAR((drag.way().way - Vec3(0.04, -0.05, 0.1)).norm(), 0, 1e-12);
-    // turning leaves it where it is, and it does not jump when it is moved again
+    // turning does not displace the body, and the body does not jump when it is moved again
     drag.follow(to({0.2, 0.2, 0.14}), {100, 30}, Qt::ControlModifier);
     EXPECT_NEAR((drag.way().way - Vec3(0.04, -0.05, 0.1)).norm(), 0, 1e-12);
     EXPECT_NEAR(drag.way().turn, 0.8, 1e-12);

@@ -1,4 +1,4 @@
-// Tests what the editor writes into the file, and what into the draft.
+// Tests what the editor writes into the file and what it writes into the draft.
 #include "edited_file.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST(EditedFile, IsWrittenWhereItsLinkLed) {
 TEST(EditedFile, IsNoPipe) {
     testing::TemporaryFolder folder;
     ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
-    const EditedFile edited(name_of(folder.file("pipe")));  // opening a pipe does not wait
+    const EditedFile edited(name_of(folder.file("pipe")));  // must not wait for a writer
     EXPECT_FALSE(edited.was_readable());
 }
 

@@ -1,4 +1,4 @@
-// Tests that the window opens devices only for a session, which takes them over.
+// Tests that the window opens devices only for a session, and that the session takes them over.
 #include "loader.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ class LoaderTest : public ::testing::Test {
                          [this](const QStringList& problems) { problems_ = problems; });
     }
 
-    /// Loads a scene and waits for the result. `rig`: file; "" stands for simulated devices.
+    /// Loads a scene and waits for the result. `rig`: path of a rig file; "" for simulated devices.
     void load(const std::string& rig, bool to_run) {
         Wanted wanted;
         wanted.request.file = "scenes/block-on-table.yaml";

@@ -34,7 +34,8 @@ TEST_F(MouseHandTest, FollowsItInDepthWithTheModifier) {
     EXPECT_EQ(way.z(), 0);
 }
 
-/// A movement by the picture's height moves the hand by the height of the view at its depth.
+/// Moving the pointer by the height of the picture moves the hand by the height of the view at the
+/// hand's depth.
 TEST_F(MouseHandTest, MovesAsFarAsThePictureShows) {
     camera.position = {0, -0.4, 0.05};
     camera.look_at = {0, 0, 0.05};
@@ -43,7 +44,7 @@ TEST_F(MouseHandTest, MovesAsFarAsThePictureShows) {
 }
 
 TEST_F(MouseHandTest, RightIsRightFromEverySide) {
-    camera.position = {0.5, 0, 0.3};  // from the right, so right is away from the person
+    camera.position = {0.5, 0, 0.3};  // from the right: right is away from the person
     EXPECT_GT(moved({30, 0}, false).y(), 0.01);
     camera.position = {0, 0, 0.6};  // from above
     const Vec3 before = mouse.goal().centre;
@@ -78,7 +79,7 @@ TEST_F(MouseHandTest, GoesBackToWhereItBeganAndHoldsWhatItHolds) {
 
 TEST_F(MouseHandTest, SqueezesAsHardAsItsDevicesLetIt) {
     EXPECT_EQ(MouseHand::grip_of(8.5), 4.25);
-    EXPECT_EQ(MouseHand::grip_of(60), 16);  // 800 g of silk need 11 N
+    EXPECT_EQ(MouseHand::grip_of(60), 16);  // 800 g of silk require 11 N
     MouseHand strong(start, 12);
     strong.set_grip(11);
     strong.wheel(1);
@@ -97,7 +98,7 @@ TEST_F(MouseHandTest, AimsBehindWhatItHoldsAndNeverCrossesItsFingersWithoutIt) {
     EXPECT_NEAR(mouse.goal().aperture, -5 * MouseHand::kNotch, 1e-12);
     mouse.set_grip(0);
     EXPECT_EQ(mouse.goal().aperture, 0);
-    mouse.set_grip(std::nan(""));  // with one finger
+    mouse.set_grip(std::nan(""));  // NaN, as with one finger
     mouse.wheel(5);
     EXPECT_EQ(mouse.goal().aperture, 0);
 }

@@ -11,7 +11,7 @@
 namespace dihaptic::gui {
 namespace {
 
-/// Two pictures of one pixel, black and white, each for 20 ms, over and over.
+/// An endless animation of two pictures of one pixel, black and white, each shown for 20 ms.
 QByteArray moving_gif() {
     const QByteArray frame(
         "\x21\xf9\x04\x00\x02\x00\x00\x00\x2c\x00\x00\x00\x00\x01\x00\x01\x00\x00\x02", 19);
@@ -39,7 +39,7 @@ TEST(PageView, ShowsAPictureThatMoves) {
     EXPECT_TRUE(page.set_page("Watch", name));
     EXPECT_FALSE(page.set_page("Watch", name));
     EXPECT_TRUE(answer_until([&] { return moves > 3; }));
-    // the next page stands still
+    // the next page has no animation
     EXPECT_TRUE(page.set_page("Go", ""));
     moves = 0;
     for (int i = 0; i < 10; ++i) {

@@ -1,5 +1,5 @@
-// Tests the states of a session's control, what each of them allows, and what the control reports,
-// without a window.
+// Tests the states of the session control, the actions that each state allows, and what the control
+// reports, without a window.
 #include "session_control.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ class SessionControlTest : public ::testing::Test {
                          [this](const QStringList& problems) { problems_ = problems; });
     }
 
-    /// Lets the control work until `condition` holds; false when that takes too long.
+    /// Lets the control work until `condition` holds. Returns false if this takes too long.
     template <class Condition>
     bool answer_until(const Condition& condition) {
         return gui::answer_until(condition, [this] { control_.refresh(); });
@@ -51,8 +51,8 @@ class SessionControlTest : public ::testing::Test {
         control_.open(QString::fromStdString(file));
         control_.read(request(), std::nullopt);
     }
-    /// Starts a session of the scene, ten times slower than in real time unless the mouse moves
-    /// the hand.
+    /// Starts a session of the scene, at a tenth of real-time speed unless the mouse moves the
+    /// hand.
     void run(bool mouse = false) {
         open("scenes/block-on-table.yaml");
         ASSERT_TRUE(comes_to(State::checked));
@@ -62,7 +62,7 @@ class SessionControlTest : public ::testing::Test {
         ASSERT_TRUE(answer_until([&] { return frames_ > 0; }));
     }
     bool logged(const char* text) const { return log_.join('\n').contains(text); }
-    /// Whether exactly these acts are allowed.
+    /// Whether the actions in `acts`, and no others, are allowed.
     ::testing::AssertionResult allows(const std::vector<Act>& acts) const {
         const std::map<Act, const char*> names{
             {Act::open, "open"},          {Act::start, "start"}, {Act::prepare, "prepare"},
@@ -121,7 +121,7 @@ TEST_F(SessionControlTest, NoSessionStartsFromUnsavedTextWithErrors) {
     control_.read(request(), "title: [\n");
     ASSERT_TRUE(comes_to(State::checked));
     EXPECT_FALSE(problems_.isEmpty());
-    EXPECT_TRUE(control_.complaint().isEmpty());  // mistakes are shown at their place in the text
+    EXPECT_TRUE(control_.complaint().isEmpty());  // errors are marked in the text
     EXPECT_FALSE(control_.want_start());
     EXPECT_TRUE(logged("The text has errors"));
     control_.set_edited(false);
@@ -143,7 +143,7 @@ TEST_F(SessionControlTest, AWantedStartWaitsForTheFile) {
 TEST_F(SessionControlTest, ASessionStartsPausesAndEnds) {
     run();
     EXPECT_EQ(control_.state(), State::running);
-    EXPECT_TRUE(allows({Act::pause, Act::stop, Act::force_off}));  // the scene has no trials
+    EXPECT_TRUE(allows({Act::pause, Act::stop, Act::force_off}));  // without trials
     control_.take_force_away("a reason");
     EXPECT_EQ(control_.state(), State::paused);
     EXPECT_TRUE(allows({Act::pause, Act::stop, Act::step}));
@@ -166,7 +166,7 @@ TEST_F(SessionControlTest, AMouseMovesTheHandInRealTime) {
     run(true);
     EXPECT_TRUE(allows({Act::pause, Act::stop, Act::move, Act::force_off}));
     control_.pause(true);
-    EXPECT_TRUE(allows({Act::pause, Act::stop}));  // no single ticks in real time
+    EXPECT_TRUE(allows({Act::pause, Act::stop}));  // single ticks are not possible in real time
 }
 
 TEST_F(SessionControlTest, ASessionThatIsAboutToStartCanBeDropped) {

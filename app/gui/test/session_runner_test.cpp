@@ -1,5 +1,5 @@
-// Tests what the window's thread, working or hanging, does to the force of a session that runs next
-// to it.
+// Tests how the window's thread, working or hanging, affects the force of a session that runs in
+// another thread.
 #include "session_runner.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ class SessionRunnerTest : public ::testing::Test {
         session::Request request;
         request.file = "scenes/block-on-table.yaml";
         request.mouse = true;
-        request.set = {"safety.max_pause_ms=1000"};  // long enough for a busy machine
+        request.set = {"safety.max_pause_ms=1000"};  // long enough even on a busy machine
         session::RunOptions options;
         options.out = folder_.path();
         options.clock = session::Clock::real;
@@ -47,7 +47,7 @@ class SessionRunnerTest : public ::testing::Test {
         answer_for(700);
         ASSERT_GT(runner_.read_frame().grip_force, 0.3);
     }
-    /// Waits for the session's end; returns its frames.
+    /// Waits for the end of the session, and returns its frames.
     std::vector<frame::Frame> end() {
         EXPECT_TRUE(answer_until([&] { return !runner_.running(); }));
         std::vector<frame::Frame> frames;
@@ -68,7 +68,7 @@ class SessionRunnerTest : public ::testing::Test {
 
 TEST_F(SessionRunnerTest, AWindowThatHangsBeforeItsFirstPictureTakesForceAwayToo) {
     grip();
-    QThread::msleep(6500);  // force goes off 1 s after the 5 s allowed for the first picture
+    QThread::msleep(6500);  // force is switched off 1 s after the 5 s allowed for the first picture
     EXPECT_NE(runner_.read_frame().status & kForceOff, 0u);
     QString told;
     ASSERT_TRUE(answer_until([&] { return !(told = runner_.take_told()).isEmpty(); }));
@@ -98,7 +98,7 @@ TEST_F(SessionRunnerTest, AHungWindowTakesForceAwayAndTheSessionWaitsForIt) {
     runner_.end();
     for (const frame::Frame& f : end()) {
         if ((f.status & kAbandoned) == 0) continue;
-        EXPECT_GT(seconds(f.time), before + 0.8);  // the last beat was up to 0.1 s before
+        EXPECT_GT(seconds(f.time), before + 0.8);  // the last beat was at most 0.1 s earlier
         EXPECT_LT(seconds(f.time), before + 1.2);
     }
 }
@@ -123,7 +123,7 @@ TEST_F(SessionRunnerTest, APauseFromAnotherThreadTakesForceAwayThoughTheWindowHa
     EXPECT_EQ(told, 1);
     runner_.end();
     for (const frame::Frame& f : end()) EXPECT_EQ(f.status & kAbandoned, 0u);
-    SessionRunner::pause_at_once();  // no session runs
+    SessionRunner::pause_at_once();  // when no session is running
     answer_for(50);
     EXPECT_EQ(told, 1);
 }

@@ -1,4 +1,4 @@
-// Tests what the panel of trials shows of attempts, and of their measures a moment later.
+// Tests what the trials panel shows of attempts and, a moment later, of their measures.
 #include "trials_panel.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ class TrialsPanelTest : public ::testing::Test {
         panel_.add(end);
     }
     QTreeWidget& table() const { return *panel_.findChild<QTreeWidget*>(); }
-    /// A row's text in the column with this name; "hidden" if the column is not shown.
+    /// The text of a row in the column with this name; "hidden" if the column is hidden.
     std::string text(int row, const char* name) const {
         for (int i = 0; i < table().columnCount(); ++i) {
             if (table().headerItem()->text(i) != name) continue;
@@ -63,7 +63,7 @@ TEST_F(TrialsPanelTest, ShowsWhatIsMeasuredOnceItIsFound) {
     EXPECT_EQ(text(1, "shown_extent_mm"), "hidden");
     EXPECT_EQ(text(1, "not_measured"), "hidden");
     EXPECT_EQ(text(1, "peak_grip_N"), "no column") << "it is shown as grip";
-    end(2, 1);  // its figures were found before it ended
+    end(2, 1);  // its measures were found before the attempt ended
     EXPECT_EQ(text(2, "hand_angle_deg"), "3.5");
     end(3, 1);
     EXPECT_EQ(text(3, "hand_angle_deg"), "");

@@ -1,4 +1,4 @@
-// Tests which words are offered where in a file.
+// Tests which words are offered at which positions of a file.
 #include "word_finder.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace dihaptic::gui::word_finder_test {
 namespace {
 
-/// The words offered where `text` contains a |.
+/// The words offered at the position of the character | in `text`.
 class Words {
   public:
     explicit Words(QString text, const std::string& name = "file.yaml") {
@@ -149,7 +149,7 @@ TEST_F(WordFinderTest, KnowsWhetherAKeyOrAValueStandsThere) {
     EXPECT_FALSE(is_key("\"a|"));
 }
 
-/// Words where `from` in a shipped experiment is replaced by `to`.
+/// The words offered in a shipped experiment in which `from` is replaced with `to`.
 Words in_experiment(const QString& from, const QString& to) {
     QString text = QString::fromStdString(read_text_file("experiments/first-trials.yaml"));
     const QString here = QString::fromStdString(std::filesystem::current_path().string());

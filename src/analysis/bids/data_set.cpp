@@ -18,7 +18,7 @@
 namespace dihaptic::analysis::bids {
 namespace {
 
-/// Writes the file, and removes the remains of a killed export.
+/// Writes the file. Also removes an unfinished file that an interrupted export left behind.
 void write_anew(const std::string& text, const std::string& file) {
     remove_dead_parts(file);
     write_file(text, file);
@@ -27,10 +27,10 @@ void write_anew(const std::string& text, const std::string& file) {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 constexpr const char* kHedVersion = "HEDVersion";
-constexpr const char* kSimulated = "Simulated";  // key in dataset_description.json: true or false
+constexpr const char* kSimulated = "Simulated";  // true or false in dataset_description.json
 
-/// Whether dataset_description.json states that the data are simulated; nullopt if it does not, as
-/// in files from earlier versions and other programs.
+/// Whether dataset_description.json states that the data are simulated. Nullopt if it does not say,
+/// as in files from earlier versions or other programs.
 std::optional<bool> says_simulated(const std::string& file) {
     const Json json = Json::parse(read_text_file(file), nullptr, false);
     if (json.is_discarded() || !json.is_object()) {
@@ -89,12 +89,12 @@ const Json kParticipantColumns{
     {"population", {{"Description", "population from which the simulated person was drawn"}}},
     {"seed", {{"Description", "seed with which the person was drawn"}}}};
 
-/// Column of participants.tsv for one of the study's own facts.
+/// Name of the column in participants.tsv for a fact that the study defines.
 std::string column_of(const recording::Fact& fact) {
     return kParticipantColumns.contains(fact.name) ? "fact_" + fact.name : fact.name;
 }
 
-/// Adds an item to a comma-separated list in one cell, unless the list contains it.
+/// Adds an item to the comma-separated list in a cell, unless the list already contains the item.
 std::string with(const std::string& list, const std::string& item) {
     if (item.empty() || ("," + list + ",").find("," + item + ",") != std::string::npos) return list;
     return list.empty() ? item : list + "," + item;
@@ -104,7 +104,7 @@ std::string with(const std::string& list, const std::string& item) {
 
 Lock::Lock(const std::string& folder)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    // on a file system without locks, waiting is pointless
+    // on a file system without locks, flock() fails and the export continues without a lock
     if (descriptor_) ::flock(descriptor_.get(), LOCK_EX);
 }
 
@@ -161,7 +161,7 @@ std::string DataSet::recording_there() const {
     const std::string own = fs::path(session_.path()).filename().string();
     for (size_t i = 0; i < scans_table.rows(); ++i) {
         const std::string recording = scans_table.text(i, "filename");
-        // data sets of earlier versions have no identities
+        // data sets made by earlier versions contain no session identities
         const std::string identity = scans_table.text(i, "identity");
         const bool same =
             identity.empty() ? scans_table.text(i, "session") == own : identity == info_.identity;
@@ -204,12 +204,12 @@ void DataSet::describe() const {
     describe_participants();
 }
 
-/// A later session may bring facts that earlier ones lacked.
+/// A later session may bring facts that earlier sessions lacked.
 void DataSet::describe_participants() const {
     const std::string name = file("participants.json");
     const bool there = is_there(name);
     Json columns = there ? Json::parse(read_text_file(name), nullptr, false) : kParticipantColumns;
-    if (!columns.is_object()) return;  // another program's, or damaged
+    if (!columns.is_object()) return;  // the file comes from another program, or is damaged
     const Json before = columns;
     if (info_.in_study) {
         for (const recording::Fact& fact : info_.in_study->facts) {
@@ -221,7 +221,7 @@ void DataSet::describe_participants() const {
     if (!there || columns != before) write_anew(columns.dump(2) + "\n", name);
 }
 
-/// Earlier versions, and other programs, made data sets without HED tags.
+/// Data sets made by earlier versions or by other programs have no HED tags.
 void DataSet::add_hed_version() const {
     const std::string name = file("dataset_description.json");
     Json json = Json::parse(read_text_file(name), nullptr, false);
@@ -256,7 +256,7 @@ void DataSet::add_participant() const {
         }
     }
     if (people.has(subject_)) {
-        // facts already stated about a participant are kept; only missing ones are added
+        // facts already stated about a participant are kept; only missing facts are added
         for (size_t i = 1; i < columns.size(); ++i) {
             const std::string there = people.text(subject_, columns[i]);
             if (columns[i] != "moved_by" && !there.empty()) row[i] = there;

@@ -1,4 +1,4 @@
-// The files with which a BIDS data set describes itself and its participants:
+// Writes the files in which a BIDS data set describes itself and its participants:
 // dataset_description.json, README, participants.tsv, and a table of recordings per participant.
 #pragma once
 
@@ -10,7 +10,8 @@
 
 namespace dihaptic::analysis::bids {
 
-/// Locks a data set, so that one export at a time numbers its runs and adds rows to its tables.
+/// Locks a data set, so that only one export at a time numbers its runs and adds rows to its
+/// tables.
 class Lock {
   public:
     explicit Lock(const std::string& folder);
@@ -21,22 +22,23 @@ class Lock {
 
 class DataSet {
   public:
-    /// `folder` need not exist.
+    /// The folder `folder` need not exist yet.
     DataSet(std::string folder, const recording::SessionFolder& session,
             const recording::SessionInfo& info);
 
-    /// Folder of the session's recordings, within the data set: "sub-S07", or "sub-S07/ses-day1" of
-    /// a study's session.
+    /// Folder of the session's recordings, relative to the data set: "sub-S07" or, for a session of
+    /// a study, "sub-S07/ses-day1".
     std::string place() const { return visit_.empty() ? subject_ : subject_ + "/" + visit_; }
-    /// The beginning of the names of its recordings' files: "sub-S07", or "sub-S07_ses-day1".
+    /// Prefix of the names of the session's recording files: "sub-S07" or, for a session of a
+    /// study, "sub-S07_ses-day1".
     std::string stem() const { return visit_.empty() ? subject_ : subject_ + "_" + visit_; }
-    /// Throws Error when the session cannot be added: a simulation to people's data or a person to
-    /// simulated data; a participant whose label belongs to another; a recording that the data set
-    /// already contains.
+    /// Throws Error when the session cannot be added: a simulation to a data set of real people or
+    /// a real person to simulated data, a participant whose label belongs to another participant,
+    /// or a recording that the data set already contains.
     void check() const;
-    /// The recording of this session that the data set contains; empty: none.
+    /// Path of this session's recording in the data set; empty if there is none.
     std::string recording_there() const;
-    /// Adds the participant, and the recordings, whose paths begin at place().
+    /// Adds the participant and the recordings, whose paths must begin with place().
     void add(const std::vector<std::string>& recordings) const;
 
   private:
@@ -55,7 +57,7 @@ class DataSet {
     const recording::SessionFolder& session_;
     const recording::SessionInfo& info_;
     std::string subject_;
-    std::string visit_;  ///< "ses-day1"; empty: the session does not belong to a study
+    std::string visit_;  ///< "ses-day1"; empty if the session does not belong to a study
 };
 
 }  // namespace dihaptic::analysis::bids

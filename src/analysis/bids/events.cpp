@@ -24,24 +24,24 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kLift = "lift_";  // prefix of the names of columns of lifts.csv
+constexpr const char* kLift = "lift_";  // prefix of the column names that come from lifts.csv
 
-/// A column of the data set's table, and the source of its cells.
+/// A column of the data set's table, and where its cells come from.
 struct Column : Table::Column {
     enum class Of { asked, measured, lift };
     Of of = Of::asked;
-    size_t from = 0;  ///< position in trials.csv or lifts.csv
+    size_t from = 0;  ///< index of the column in trials.csv or lifts.csv
 };
 
-/// An attempt at a trial in this session, and its row in trials.csv.
+/// A trial attempt in this session, and the attempt's row in trials.csv.
 struct Attempt {
     double start = 0;  // [s]
     double stop = 0;
     size_t row = 0;
 };
 
-/// Attempts of this session only: trials.csv starts with the attempts of the sessions that it
-/// resumes.
+/// Returns the attempts of this session only: trials.csv starts with the attempts of the sessions
+/// that this session resumes.
 std::vector<Attempt> attempts_of(const rows::TrialFile& trials,
                                  const recording::SessionFolder& session) {
     const int earlier = sessions_before(session);
@@ -53,7 +53,7 @@ std::vector<Attempt> attempts_of(const rows::TrialFile& trials,
     return out;
 }
 
-/// Columns made from trials.csv and lifts.csv, with their descriptions.
+/// Returns the columns made from trials.csv and lifts.csv, with their descriptions.
 std::vector<Column> columns_for(const rows::TrialFile& trials, const rows::LiftFile* lifts,
                                 const recording::SessionFolder& session,
                                 const recording::SessionInfo& info) {
@@ -61,10 +61,10 @@ std::vector<Column> columns_for(const rows::TrialFile& trials, const rows::LiftF
     const auto add = [&](const Table::Column& column, Column::Of of) {
         if (const auto from = trials.column(column.name)) out.push_back({column, of, *from});
     };
-    // rows of moments in a trial also contain the data known before its start
+    // rows of events in a trial also contain what was known before the trial started
     std::vector<Table::Column> asked = list_figures(rows::AskedRow{}).columns;
     std::vector<Table::Column> measured = list_figures(rows::TrialMeasures{}).columns;
-    asked.insert(asked.begin() + 1, measured.front());  // the attempt's number
+    asked.insert(asked.begin() + 1, measured.front());  // number of the attempt
     measured.erase(measured.begin());
     const task::Task task = read_frozen_task(session.file("task.yaml"));
     for (const Table::Column& c : asked) add(c, Column::Of::asked);
@@ -77,7 +77,7 @@ std::vector<Column> columns_for(const rows::TrialFile& trials, const rows::LiftF
     for (const Table::Column& c : measured) add(c, Column::Of::measured);
     if (lifts == nullptr) return out;
     const std::vector<Table::Column> of_lifts = list_figures(rows::LiftRow{}).columns;
-    for (size_t i = 2; i < of_lifts.size(); ++i) {  // after the columns of trial and attempt
+    for (size_t i = 2; i < of_lifts.size(); ++i) {  // starts after the columns of trial and attempt
         const auto from = lifts->column(of_lifts[i].name);
         if (!from) continue;
         const bool mark = i == 2;
@@ -91,8 +91,8 @@ std::vector<Column> columns_for(const rows::TrialFile& trials, const rows::LiftF
     return out;
 }
 
-/// Describes the columns of answers by their questions, and the numbers of Likert scales by their
-/// labels.
+/// Adds the questions as descriptions of the answers' columns, and the labels of Likert scales as
+/// descriptions of their levels.
 void describe_answers(const task::Task& task, Json& json) {
     for (const task::AskSpec& ask : task::questions_of(task)) {
         if (!json.contains(ask.name)) continue;
@@ -109,7 +109,7 @@ Json sidecar(const std::vector<Column>& columns, const recording::SessionInfo& i
     Json levels, tags;
     for (const rows::EventKind& kind : rows::kEventKinds) {
         levels[kind.name] = std::string("value: ") + kind.value;
-        tags[kind.name] = fmt::format("({}, {{HED}})", kind.hed);  // with the tags of the row
+        tags[kind.name] = fmt::format("({}, {{HED}})", kind.hed);  // including the tags of the row
     }
     levels["trial"] = "an attempt at a trial, with its demands and measures; value: its outcome";
     Json json{
@@ -129,8 +129,8 @@ Json sidecar(const std::vector<Column>& columns, const recording::SessionInfo& i
     return json;
 }
 
-/// A HED label: the row's number, since HED treats equal tags at the same time as an error, and the
-/// letters and digits of a text.
+/// Returns a HED label: the row's number followed by the letters and digits of a text. The number
+/// is needed because HED treats equal tags at the same time as an error.
 std::string hed_label(size_t number, const std::string& text) {
     constexpr size_t kLongest = 60;
     std::string out = fmt::format("Label/{}-", number);
@@ -145,14 +145,15 @@ std::string hed_label(size_t number, const std::string& text) {
     return out;
 }
 
-/// The HED tags of a row, besides those that the sidecar gives to rows of its kind: its label, and
-/// the tags that the task's file gives the state, the outcome or the perturbations.
+/// The HED tags of a row that are not already given by the sidecar to all rows of its kind: the
+/// row's label, and the tags that the task file assigns to the state, the outcome or the
+/// perturbations.
 class HedTags {
   public:
     explicit HedTags(const task::Task& task) : task_(task) {}
 
-    /// Tags of the next moment, in the order of their times. `number`: of the row; `trial`: null
-    /// between trials.
+    /// Returns the tags of the next event. Events must be passed in time order. `number`: number of
+    /// the row; `trial`: null between trials.
     std::string of(const rows::EventRow& event, size_t number, const rows::AskedRow* trial) {
         std::string out = hed_label(number, event.detail);
         const auto also = [&](const std::string& tags) {
@@ -176,7 +177,8 @@ class HedTags {
     }
 
   private:
-    /// A condition, or else a round, may replace the perturbation by one of the same name.
+    /// Returns the perturbation that acts in a trial: a condition, or else a round, may replace the
+    /// perturbation with one of the same name.
     const task::PerturbationSpec& of_trial(const task::PerturbationSpec& spec,
                                            const rows::AskedRow& trial) const {
         for (const auto& [list, name] : {std::pair(&task_.conditions, &trial.condition),
@@ -206,7 +208,7 @@ class HedTags {
     }
 
     const task::Task& task_;
-    std::string state_;  // the last state that has begun
+    std::string state_;  // the last state that has started
 };
 
 class EventRows {
@@ -230,7 +232,7 @@ class EventRows {
         row.insert(row.end(), {"simulated", "moved_by", "HED"});
         return row;
     }
-    /// Row of an attempt, with all its data.
+    /// Row of an attempt, with all the data of the attempt.
     Row trial(const Attempt& attempt) const {
         const rows::TrialRow& of = trials_[attempt.row];
         Row row{number_text(of.head.start), fmt::format("{:.6g}", attempt.stop - attempt.start),
@@ -246,7 +248,7 @@ class EventRows {
         }
         return finished(row, hed_label(attempt.row + 1, fmt::format("trial {}", of.asked.trial)));
     }
-    /// Row of a moment, in an attempt or between attempts.
+    /// Row of an event, either in an attempt or between attempts.
     Row moment(const rows::EventRow& event, size_t number, const Attempt* attempt) const {
         Row row{number_text(event.time), "n/a", event.name, event.detail};
         for (const Column& c : columns_) {
@@ -270,7 +272,7 @@ class EventRows {
     const rows::LiftFile* lifts_;
     HedTags& tags_;
     const recording::MovedBy& by_;
-    std::vector<Column> columns_;  // the first holds the trial number
+    std::vector<Column> columns_;  // the first column holds the trial number
     std::map<std::pair<int, int>, size_t> lift_of_;
 };
 
@@ -289,10 +291,10 @@ std::optional<Events> events_of(const recording::SessionFolder& session,
     const EventRows maker(trials, lifts ? &*lifts : nullptr, info, session, tags);
     const std::vector<Attempt> attempts = attempts_of(trials, session);
 
-    std::vector<std::pair<double, Row>> rows;  // by onset [s]
+    std::vector<std::pair<double, Row>> rows;  // sorted by onset [s]
     for (const Attempt& attempt : attempts) rows.emplace_back(attempt.start, maker.trial(attempt));
     for (const rows::EventRow& moment : moments) {
-        if (moment.name == "trial") continue;  // the attempt has its own row
+        if (moment.name == "trial") continue;  // the attempt already has a row
         const auto in_it = [&](const Attempt& a) {
             return a.start <= moment.time && moment.time <= a.stop;
         };

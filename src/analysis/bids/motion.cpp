@@ -27,7 +27,7 @@ Channel latency(const std::string& name) {
             [](const frame::Frame& frame) { return seconds(frame.time); }};
 }
 
-/// Channels of a finger, in world axes.
+/// Channels of a finger, in world coordinates.
 std::vector<Channel> channels_of(const std::string& finger, size_t f) {
     std::vector<Channel> out;
     const auto vector = [&](const std::string& what, const std::string& type,
@@ -54,7 +54,7 @@ std::vector<Channel> channels_of(const std::string& finger, size_t f) {
     return out;
 }
 
-/// Adds the channels of a body's pose, in world axes.
+/// Adds the channels of a body's pose, in world coordinates.
 void add_body(std::vector<Channel>& out, const std::string& body, size_t b) {
     for (int i = 0; i < 3; ++i) {
         const std::string axis(1, "xyz"[i]);
@@ -63,7 +63,7 @@ void add_body(std::vector<Channel>& out, const std::string& body, size_t b) {
                        [b, i](const frame::Frame& frame) { return frame.bodies[b].X_WB.p[i]; }});
     }
     for (int i = 0; i < 4; ++i) {
-        const std::string part(1, "xyzw"[i]);  // also Eigen's order
+        const std::string part(1, "xyzw"[i]);  // same order as in Eigen
         out.push_back(
             {body + "_orientation_" + part, "quat_" + part, "ORNT", body, "n/a",
              "unit quaternion that turns the body's axes into the world's, " + part,
@@ -139,7 +139,7 @@ std::string channels_tsv(const TrackingSystem& system, double tick) {
 }
 
 std::string channels_json() {
-    // no RotationOrder, since orientations are quaternions
+    // RotationOrder is omitted, since orientations are quaternions
     const Json levels{
         {"reference_frame",
          {{"Levels",
@@ -156,7 +156,7 @@ std::string motion_json(const TrackingSystem& system, const std::string& task,
     std::map<std::string, int> counts;
     for (const Channel& c : system.channels) ++counts[c.type];
     Json json{{"TaskName", task},
-              // also states who moved the hand, for which the schema has no key
+              // the description also states who moved the hand, for which the schema has no key
               {"TaskDescription", info.title + ". " + info.moved_by.describe()},
               {"SamplingFrequency", 1 / tick},
               {"TrackingSystemName", label(system.name)},

@@ -1,4 +1,4 @@
-// A session's motion in BIDS form: tracking systems, one for each finger and one for the objects,
+// A session's motion in BIDS form: one tracking system for each finger and one for the objects,
 // each with its channels.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace dihaptic::analysis::bids {
 
 struct Channel {
     std::string name;
-    std::string component;  ///< x, y, z, quat_x, ...; n/a
+    std::string component;  ///< x, y, z, quat_x, ...; "n/a" if none
     std::string type;       ///< type in Motion-BIDS; forces are MISC
     std::string point;      ///< tracked point
     std::string unit;
@@ -28,9 +28,9 @@ struct TrackingSystem {
     int points = 0;  ///< number of tracked points
 };
 
-/// Fingers in the log's order, then the objects; files are renamed in the opposite order. Objects
-/// are the bodies that can move in the frozen scene, or all bodies if the scene cannot be read.
-/// Throws Error when two fingers have the same label.
+/// Returns the fingers in the order of the log, then the objects. (Files are renamed in the reverse
+/// order.) Objects are the bodies that can move in the frozen scene, or all bodies if the scene
+/// cannot be read. Throws Error when two fingers have the same label.
 std::vector<TrackingSystem> tracking_systems(const recording::SessionFolder& session,
                                              const recording::SessionInfo& info,
                                              const recording::LogHead& head);
@@ -41,7 +41,7 @@ std::string channels_json();
 std::string motion_json(const TrackingSystem& system, const std::string& task,
                         const recording::SessionInfo& info, double tick, int64_t ticks);
 
-/// BIDS label for a text: its letters and digits only.
+/// Returns the BIDS label for a text: only its letters and digits.
 std::string label(const std::string& text);
 
 }  // namespace dihaptic::analysis::bids

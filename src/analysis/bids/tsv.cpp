@@ -100,7 +100,7 @@ void Tsv::put(const std::vector<std::string>& columns, const Row& cells) {
 void Tsv::write() const {
     std::vector<Row> all{columns_};
     all.insert(all.end(), rows_.begin(), rows_.end());
-    remove_dead_parts(file_);  // remains of a killed export
+    remove_dead_parts(file_);  // left behind by an interrupted export
     write_file(to_tsv(all), file_);
 }
 

@@ -14,8 +14,8 @@ using model::SingleRate;
 
 using Prediction = std::function<std::vector<double>(std::span<const double>)>;
 
-/// Least-squares fit of a prediction with bounded parameters, from several starts, and its
-/// profiles.
+/// Fits a prediction with bounded parameters by least squares, from several starting points, and
+/// computes its profiles.
 class LeastSquares {
   public:
     LeastSquares(std::span<const double> measured, Prediction predict, std::vector<Variable> ranges)
@@ -23,7 +23,7 @@ class LeastSquares {
         for (const double y : measured) count_ += std::isnan(y) ? 0 : 1;
     }
 
-    /// Fits from the three best of the starts.
+    /// Runs the fit from the three best of the starting points.
     void run(std::vector<std::vector<double>> starts) {
         if (count_ <= starts.front().size())
             throw Error("too few trials were measured to fit a curve",
@@ -49,7 +49,7 @@ class LeastSquares {
     Interval interval(int parameter) const {
         const auto i = static_cast<size_t>(parameter);
         const double freedom = static_cast<double>(count_) - static_cast<double>(best_.x.size());
-        // data without noise have no residuals, and the limit would be 0
+        // noise-free data have no residuals, and the limit would be 0
         const double limit = std::max(best_.value, 1e-20) * std::exp(kChiSquared95 / freedom);
         return profile_interval([&](double v) { return profile(parameter, v); }, best_.x[i],
                                 ranges_[i], limit);
@@ -64,7 +64,7 @@ class LeastSquares {
         return sum;
     }
 
-    /// Least cost with one parameter held at v.
+    /// Returns the lowest cost with one parameter held at v.
     double profile(int parameter, double v) const {
         const auto i = static_cast<std::ptrdiff_t>(parameter);
         auto variables = ranges_;

@@ -1,11 +1,11 @@
 // Fits learning curves (model/learning_curve.h) and single-rate adaptation (model/adaptation.h) to
-// a person's compensation in each trial, by least squares, with profile intervals: for each
-// parameter, the values at which, with all others refitted,
+// a person's compensation in each trial, by least squares. Computes the profile interval of each
+// parameter, i.e. the values for which, with all other parameters refitted,
 //
 //     (n - p) ln(SSE / SSE_min) <= 3.84
 //
-// with n measured trials, p parameters, and SSE the sum of squared residuals. The two-rate model is
-// fitted in two_rate_fit.h.
+// where n is the number of measured trials, p is the number of parameters and SSE is the sum of
+// squared residuals. The two-rate model is fitted in two_rate_fit.h.
 #pragma once
 
 #include <span>
@@ -17,10 +17,10 @@
 
 namespace dihaptic::analysis {
 
-/// Results of every fit. Predictions are for every trial, measured or not.
+/// Results common to all fits. Predictions exist for every trial, measured or not.
 struct CurveFit {
     std::vector<double> predicted;
-    double mean_square = 0;  ///< SSE / n, in the square of the data's unit
+    double mean_square = 0;  ///< SSE / n, in squared units of the data
     double residual_sd = 0;  ///< sqrt(SSE / (n - p))
 };
 
@@ -35,16 +35,16 @@ struct SingleRateFit : CurveFit {
 };
 
 /// `measured`: compensation in trials 0, 1, 2, ..., NaN where not measured. The time constant is
-/// sought between 0.1 trials and ten times the number of trials. All fits throw Error when fewer
-/// trials than parameters + 1 were measured.
+/// searched for between 0.1 trials and ten times the number of trials. All fits throw Error when
+/// the number of measured trials is less than the number of parameters + 1.
 LearningCurveFit fit_learning_curve(std::span<const double> measured);
 
-/// `measured`: compensation in each of `trials`, NaN where not measured. Throws Error when their
-/// sizes differ.
+/// `measured`: compensation in each of `trials`, NaN where not measured. Throws Error when the
+/// sizes of `measured` and `trials` differ.
 SingleRateFit fit_single_rate(std::span<const double> measured,
                               std::span<const model::AdaptationTrial> trials);
 
-/// Throws Error when the sizes differ.
+/// Throws Error when the sizes of `measured` and `trials` differ.
 void check_numbers(std::span<const double> measured,
                    std::span<const model::AdaptationTrial> trials);
 

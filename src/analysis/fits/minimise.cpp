@@ -8,7 +8,7 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// The cost of variables scaled to [0, 1], so that one tolerance fits them all.
+/// The cost as a function of variables scaled to [0, 1], so that one tolerance suits all of them.
 struct Scaled {
     const Cost& cost;
     std::span<const Variable> variables;
@@ -55,8 +55,8 @@ Interval profile_interval(const std::function<double(double)>& profile, double b
     const auto end = [&](double bound) {
         if (bound == best || profile(bound) <= limit) return bound;
         double inside = best, outside = bound;
-        // to half a percent of the distance: more precision would be lost in the statistical
-        // uncertainty
+        // accurate to half a percent of the distance, because the statistical uncertainty is larger
+        // anyway
         for (int i = 0; i < 40 && std::abs(outside - inside) > 0.005 * std::abs(inside - best);
              ++i) {
             const double middle = (inside + outside) / 2;

@@ -1,4 +1,5 @@
-// Lists the parameters of each fit by their names in the command `fit` and the package for Python.
+// Lists the parameters of each fit by the names used in the command `fit` and in the Python
+// package.
 #pragma once
 
 #include <vector>

@@ -14,9 +14,10 @@ namespace {
 using model::Psychometric;
 using model::Sigmoid;
 
-/// Searches for the most likely function. Its variables are the threshold, ln of the spread (the
-/// shape, or one over it if the shape is a slope), and the lapse rate. Weibull functions are
-/// searched in log10 of the level, where threshold and slope hardly depend on each other.
+/// Searches for the most likely function. The variables are the threshold, the logarithm of the
+/// spread (the spread is the shape or, if the shape is a slope, its reciprocal), and the lapse
+/// rate. Weibull functions are searched in log10 of the level, where threshold and slope are almost
+/// independent of each other.
 class Search {
   public:
     enum : size_t { kThreshold, kSpread, kLapse, kVariables };
@@ -36,7 +37,7 @@ class Search {
         free_ = {true, !settings_.shape, settings_.max_lapse > 0};
         for (double share = -0.5; share < 1.55; share += 0.1)
             coarse_places_.push_back(low_ + share * span_);
-        // a step function fits equally well at any point between two levels
+        // a step function fits equally well anywhere between two levels
         places_ = coarse_places_;
         std::vector<double> levels;
         for (const LevelCount& c : counts_) levels.push_back(c.level);
@@ -54,27 +55,27 @@ class Search {
 
     std::vector<LevelCount>& counts() { return counts_; }
 
-    /// The lowest of the minima found from the best point of a grid at each spread, since flat and
-    /// steep functions have separate minima.
+    /// Returns the lowest of the minima found by starting, for each spread, from the best point of
+    /// a grid, since flat and steep functions have separate minima.
     Minimum run() const {
         constexpr double kFine = 1e-7;
         const Minimum least = least_of(starts(places_, spreads_, lapses_), free_);
         return descend(least.x, free_, kFine);
     }
-    /// For a resample: searches from the two best points of a coarser grid, with a precision far
-    /// finer than the differences between resamples.
+    /// Searches faster, for a resample: starts from the two best points of a coarser grid, with a
+    /// precision that is still much finer than the differences between resamples.
     Minimum run_quickly() const {
         return least_of(few(starts(coarse_places_, spreads_, {lapses_.data(), 1})), free_);
     }
-    /// The points where the profile of one variable, with the others fitted again, rises by half of
-    /// the 95 % point of chi-squared.
+    /// Returns the points at which the profile of one variable, with the other variables refitted,
+    /// has risen by half of the 95 % quantile of chi-squared.
     Interval interval(size_t variable, const std::vector<double>& best) const {
         if (!free_[variable]) return {best[variable], best[variable]};
         return profile_interval([&](double v) { return profile(variable, v); }, best[variable],
                                 ranges_[variable], cost(best) + kChiSquared95 / 2);
     }
 
-    /// The function in the unit of the data.
+    /// Returns the function for these variables, in the unit of the data.
     Psychometric function(std::span<const double> x) const {
         Psychometric f = searched(x);
         if (linear_weibull()) {
@@ -83,12 +84,12 @@ class Search {
         }
         return f;
     }
-    /// The variables for which function() gives this function.
+    /// Returns the variables for which function() returns `f`.
     std::vector<double> variables(const Psychometric& f) const {
         return {linear_weibull() ? std::log10(f.threshold) : f.threshold,
                 std::log(slope() ? 1 / f.shape : f.shape), f.lapse};
     }
-    /// Whether a function with its spread at an end of the range fits as well as the best.
+    /// Whether a function whose spread is at one end of the range fits as well as the best fit.
     bool shape_unknown(const Minimum& best) const {
         std::vector<double> x = best.x;
         for (const double end : {ranges_[kSpread].low, ranges_[kSpread].high}) {
@@ -101,7 +102,7 @@ class Search {
   private:
     using Free = std::array<bool, kVariables>;
 
-    /// The best point of a grid at each spread, the best first.
+    /// Returns the best grid point for each spread, sorted from best to worst.
     std::vector<Minimum> starts(std::span<const double> places, std::span<const double> spreads,
                                 std::span<const double> lapses) const {
         std::vector<Minimum> best;
@@ -124,7 +125,7 @@ class Search {
         return starts;
     }
 
-    /// Descends from x in those variables that are free.
+    /// Minimises from x over those variables that are free.
     Minimum descend(std::vector<double> x, const Free& free, double tolerance) const {
         std::vector<Variable> ranges;
         std::vector<double> start;
@@ -151,7 +152,7 @@ class Search {
         return *std::min_element(starts.begin(), starts.end(), less);
     }
 
-    /// The least cost with one variable held at v.
+    /// Returns the lowest cost with one variable held at v.
     double profile(size_t held, double v) const {
         const std::array at = {v};
         Free free = free_;
@@ -165,7 +166,7 @@ class Search {
 
     static bool less(const Minimum& a, const Minimum& b) { return a.value < b.value; }
     bool linear_weibull() const { return settings_.sigmoid == Sigmoid::weibull; }
-    /// Whether the shape is a slope, i.e. one over the spread.
+    /// Whether the shape is a slope, i.e. the reciprocal of the spread.
     bool slope() const { return linear_weibull() || settings_.sigmoid == Sigmoid::weibull_log10; }
 
     Psychometric searched(std::span<const double> x) const {
@@ -180,7 +181,7 @@ class Search {
         const Psychometric f = searched(x);
         double sum = 0;
         for (const LevelCount& c : counts_) {
-            // answers that are impossible under a function have a large but finite cost
+            // answers that are impossible under a function get a large but finite cost
             const double p = std::clamp(f.probability(c.level), 1e-12, 1 - 1e-12);
             sum -= c.yes * std::log(p) + (c.trials - c.yes) * std::log1p(-p);
         }
@@ -240,7 +241,7 @@ std::vector<LevelCount> count(std::span<const Answer> answers) {
               [](const Answer& a, const Answer& b) { return a.level < b.level; });
     std::vector<LevelCount> counts;
     if (sorted.empty()) return counts;
-    // sums of steps return to a level only up to rounding
+    // sums of steps return to the same level only up to rounding
     const double same = 1e-9 * (sorted.back().level - sorted.front().level);
     for (const Answer& answer : sorted) {
         if (counts.empty() || answer.level > counts.back().level + same)
@@ -266,7 +267,7 @@ PsychometricIntervals profile_intervals(std::span<const LevelCount> counts,
     check(counts, settings);
     const Search search(counts, settings);
     const std::vector<double> best = search.variables(fit.function);
-    // the function with one variable at the ends of its interval
+    // evaluates the function with one variable at either end of its interval
     const auto ends = [&](size_t variable) {
         const Interval found = search.interval(variable, best);
         std::vector<double> x = best;

@@ -20,7 +20,7 @@ using Mat4 = Eigen::Matrix4d;
 
 enum Parameter { kRetentionFast, kLearningFast, kRetentionSlow, kLearningSlow, kParameters };
 
-constexpr int kFree = -1;  // no parameter is held
+constexpr int kFree = -1;  // no parameter is held fixed
 
 TwoRate rates_of(const Vec4& p) {
     return {{p[kRetentionFast], p[kLearningFast]}, {p[kRetentionSlow], p[kLearningSlow]}};
@@ -30,7 +30,7 @@ Vec4 parameters_of(const TwoRate& rates) {
     return {rates.fast.retention, rates.fast.learning, rates.slow.retention, rates.slow.learning};
 }
 
-/// The measured trials, and the model's residuals on them.
+/// The measured trials, and the residuals of the model in these trials.
 struct Data {
     std::span<const double> measured;
     std::span<const AdaptationTrial> trials;
@@ -47,8 +47,9 @@ struct Data {
         return std::isfinite(sum) ? sum : std::numeric_limits<double>::max();
     }
 
-    /// Half of the gradient of the sum of squares, and half of its Gauss-Newton curvature. The
-    /// derivatives d of both states follow from x(n+1) = A x(n) + B e(n), with de = -dx.
+    /// Computes half the gradient of the sum of squares, and half of its Gauss-Newton approximation
+    /// of the curvature. The derivatives d of both states follow from x(n+1) = A x(n) + B e(n),
+    /// with de = -dx.
     void slope(const Vec4& p, Vec4& gradient, Mat4& curvature) const {
         double fast = 0, slow = 0;
         Vec4 d_fast = Vec4::Zero(), d_slow = Vec4::Zero();
@@ -75,8 +76,8 @@ struct Data {
     }
 };
 
-/// Maps the parameters to a point z of the unit cube, in which their order is not a constraint.
-/// Each pair has low <= high (retention: fast, slow; learning: slow, fast):
+/// Maps the parameters to a point z of the unit cube, where the order of the parameters is no
+/// longer a constraint. Each pair has low <= high (retention: fast, slow; learning: slow, fast):
 ///
 ///     both free        high = z_high            low = high z_low
 ///     low held at v    high = v + (1 - v) z_high
@@ -101,7 +102,7 @@ class Cube {
         return p;
     }
 
-    /// The inverse of parameters(); parameters outside of the cube are clamped to it.
+    /// The inverse of parameters(). Points outside the cube are clamped to it.
     Vec4 point(const Vec4& p) const {
         Vec4 z;
         for (const Pair& pair : kPairs) {
@@ -114,7 +115,7 @@ class Cube {
         return z.cwiseMax(0).cwiseMin(1);
     }
 
-    /// dp / dz at z.
+    /// Returns the derivative of the parameters p with respect to z, dp / dz.
     Mat4 derivative(const Vec4& z) const {
         Mat4 d = Mat4::Zero();
         for (const Pair& pair : kPairs) {
@@ -148,7 +149,8 @@ struct Found {
     double squares;
 };
 
-/// Levenberg-Marquardt within the cube: a point on a face that is pulled outward stays on the face.
+/// Runs Levenberg-Marquardt within the cube: a point on a face of the cube stays on that face if it
+/// is pulled outward.
 Found descend(const Data& data, const Cube& cube, const Vec4& start, int steps) {
     Vec4 z = cube.point(start);
     Found best{cube.parameters(z), 0};
@@ -191,10 +193,10 @@ Found descend(const Data& data, const Cube& cube, const Vec4& start, int steps) 
     return best;
 }
 
-constexpr size_t kRatesEach = 77;  // pairs of learning rates in the lattice, per pair of retentions
+constexpr size_t kRatesEach = 77;  // number of pairs of learning rates per pair of retentions
 
-/// Points in the whole space, denser where people's parameters are: the shares forgotten and
-/// learned in a trial span powers of ten.
+/// Returns points that cover the whole parameter space, more densely where people's parameters lie.
+/// The fractions forgotten and learned per trial span several powers of ten.
 std::vector<Vec4> lattice() {
     constexpr double kSlow[] = {0, 1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 0.7};  // 1 - A_slow
     constexpr double kFast[] = {0, 0.2, 0.4, 0.6, 0.75, 0.88, 0.96, 1};           // A_fast / A_slow
@@ -210,16 +212,17 @@ std::vector<Vec4> lattice() {
     return out;
 }
 
-// The search descends from the best points of the lattice and from the best point of each pair of
-// retentions: if many points are good, the lowest minimum might not be near any of the best points.
+// The search starts from the best points of the lattice and from the best point for each pair of
+// retentions: if many lattice points are good, the lowest minimum might not be near any of the best
+// ones.
 constexpr size_t kScouts = 48;
-constexpr int kScoutSteps = 12;   // steps of each scout
-constexpr size_t kPolished = 12;  // best scouts, which continue for kPolishingSteps
+constexpr int kScoutSteps = 12;   // number of steps for each scout
+constexpr size_t kPolished = 12;  // number of best scouts, which continue for kPolishingSteps
 constexpr int kPolishingSteps = 400;
-constexpr double kSamePlace = 1e-3;  // minima no further apart are the same
+constexpr double kSamePlace = 1e-3;  // minima that are no further apart than this count as one
 
-/// Minima, the lowest first. Several are kept, because another may be the lowest when a parameter
-/// is held.
+/// Returns the minima, lowest first. Several are kept, because a different one may be lowest when a
+/// parameter is held fixed.
 std::vector<Found> minima(const Data& data) {
     static const std::vector<Vec4> points = lattice();
     std::vector<Found> found;
@@ -251,7 +254,7 @@ std::vector<Found> minima(const Data& data) {
     return different;
 }
 
-/// Least sum of squares with one parameter held at v, searched from every minimum.
+/// Returns the lowest sum of squares with one parameter held at v, searching from every minimum.
 double profile(const Data& data, const std::vector<Found>& minima, int parameter, double v) {
     double least = std::numeric_limits<double>::max();
     for (const Found& minimum : minima)
@@ -262,7 +265,7 @@ double profile(const Data& data, const std::vector<Found>& minima, int parameter
 
 Interval interval(const Data& data, const std::vector<Found>& minima, int parameter, int count) {
     const Found& best = minima.front();
-    // data without noise have no residuals, and the limit would be 0
+    // noise-free data have no residuals, and the limit would be 0
     const double limit =
         std::max(best.squares, 1e-20) * std::exp(kChiSquared95 / (count - kParameters));
     return profile_interval([&](double v) { return profile(data, minima, parameter, v); },

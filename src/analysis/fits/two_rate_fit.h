@@ -3,8 +3,9 @@
 //
 //     0 <= A_fast <= A_slow <= 1        0 <= B_slow <= B_fast <= 1
 //
-// and profile intervals of the parameters. The result does not depend on a chosen start: the search
-// evaluates a lattice over the whole space, and runs Levenberg-Marquardt from its best points.
+// and profile intervals of the parameters. The result does not depend on the choice of a starting
+// point, because the search evaluates a lattice over the whole space and runs Levenberg-Marquardt
+// from the best lattice points.
 #pragma once
 
 #include <span>
@@ -18,13 +19,13 @@ struct TwoRateFit : CurveFit {
     Interval retention_fast, learning_fast, retention_slow, learning_slow;  ///< 95 %
 };
 
-/// `measured`: compensation in each of `trials`, NaN where not measured. Throws Error when their
-/// sizes differ, or when fewer than five trials were measured.
+/// `measured`: compensation in each of `trials`, NaN where not measured. Throws Error when the
+/// sizes of `measured` and `trials` differ, or when fewer than five trials were measured.
 TwoRateFit fit_two_rate(std::span<const double> measured,
                         std::span<const model::AdaptationTrial> trials);
 
-/// Sum of squared residuals of the model found by descending from one start, with which tests judge
-/// the search.
+/// Returns the sum of squared residuals of the model found by descending from a single starting
+/// point. Tests use it to judge the search.
 double squares_downhill(std::span<const double> measured,
                         std::span<const model::AdaptationTrial> trials,
                         const model::TwoRate& start);

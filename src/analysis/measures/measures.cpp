@@ -18,7 +18,7 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
     return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
-/// A column's value in its unit.
+/// Converts a value to the unit of its column.
 double in_unit(const task::MeasureColumn& column, double value) {
     return value * figure_form(column.name, column.unit).scale;
 }
@@ -34,7 +34,8 @@ struct Planned {
     task::TaskPlan plan;
 };
 
-/// The session's plan with its trials; nullopt if this version cannot make it.
+/// Returns the session's plan with its trials; nullopt if this version of the program cannot make
+/// the plan.
 std::optional<Planned> planned(const task::Task& task, const recording::SessionFolder& folder) {
     Diagnostics problems(UnknownKeys::are_left_out);
     scene::Scene scene = scene::read_scene(folder.file("scene.yaml"), problems);
@@ -44,7 +45,7 @@ std::optional<Planned> planned(const task::Task& task, const recording::SessionF
     return Planned{std::move(scene), std::move(plan)};
 }
 
-/// Finds in which states the channels of the movements' trials act.
+/// Finds the states in which channels act in the trials with movements.
 void find_channels(const Planned& of, std::vector<task::MovementPlan>& movements) {
     const std::vector<task::MovementPlan> known = task::movements_of(of.plan, of.scene);
     for (size_t i = 0; i < std::min(known.size(), movements.size()); ++i)
@@ -88,7 +89,7 @@ std::optional<MeasureFinder> MeasureFinder::of(const recording::SessionFolder& f
     return std::nullopt;
 }
 
-/// Takes what trial-list.csv does not contain from a plan of the task.
+/// Plans the task to obtain what trial-list.csv does not contain.
 void MeasureFinder::plan_with(const task::Task& task, const recording::SessionFolder& folder) {
     const bool in_channels = std::ranges::any_of(
         plans_, [](const task::MovementPlan& plan) { return plan.channel != 0; });

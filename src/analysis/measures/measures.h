@@ -1,5 +1,4 @@
-// Computes a task's measures (task/plan/measures.h) in each attempt at a trial, while the frames
-// arrive.
+// Computes a task's measures (task/plan/measures.h) for each trial attempt as the frames arrive.
 #pragma once
 
 #include <memory>
@@ -14,22 +13,22 @@
 
 namespace dihaptic::analysis {
 
-/// Columns of all measures that trials.csv may have in a session with this task: named measures,
-/// the task's custom measures, and the list of unmeasured ones.
+/// Returns the columns of all measures that trials.csv may have in a session with this task: the
+/// named measures, the task's custom measures, and the column that lists missing measures.
 std::vector<Table::Column> measure_columns_of(const task::Task& task);
 
 class MeasureFinder {
   public:
-    /// Nullopt if the session's task lists no measures, or if its files cannot be read.
+    /// Returns nullopt if the session's task lists no measures, or if its files cannot be read.
     static std::optional<MeasureFinder> of(const recording::SessionFolder& folder,
                                            const recording::LogHead& head,
                                            const std::vector<std::string>& phases);
 
     void add(const frame::Frame& frame);
-    /// Ends the attempt whose frames came last; does nothing between trials. `lift`: null if there
-    /// is none.
+    /// Ends the attempt to which the last frames belong; does nothing between trials. `lift`: null
+    /// if the attempt has no lift.
     void end_attempt(const rows::LiftRow* lift);
-    /// Adds the measures' columns to a table with the columns `trial_num` and `attempt`.
+    /// Adds the columns of the measures to a table that has the columns `trial_num` and `attempt`.
     void add_to(Table& trials) const;
 
   private:
@@ -39,11 +38,11 @@ class MeasureFinder {
 
     std::vector<const task::MeasureRow*> measures_;
     std::vector<task::CustomMeasure> custom_measures_;
-    std::unique_ptr<task::CustomMeasures> own_;  // null if there are none
+    std::unique_ptr<task::CustomMeasures> own_;  // null if there are no custom measures
     task::Movement options_;
     MeasurePhases phases_;
-    std::vector<task::MovementPlan> plans_;  // by trial; empty if no measure requires a movement
-    int finger_ = -1;                        // finger that moves; -1: the body, or all fingers
+    std::vector<task::MovementPlan> plans_;  // one per trial; empty if no measure needs them
+    int finger_ = -1;  // index of the finger that moves; -1 for the body or for all fingers
     int body_ = -1;
     double tick_ = 1e-3;
 

@@ -15,22 +15,22 @@
 namespace dihaptic::analysis {
 namespace {
 
-constexpr double kLeastPeak = 0.05;        // slower movement is tremor or noise [m/s]
-constexpr double kGripBefore = 0.2;        // time before a load step that gives the usual grip [s]
+constexpr double kLeastPeak = 0.05;        // slower movements are tremor or noise [m/s]
+constexpr double kGripBefore = 0.2;        // duration of the usual grip before a load step [s]
 constexpr double kLeastGripBefore = 0.05;  // [s]
 constexpr double kGripLasts = 0.01;        // time for which grip must stay above the threshold [s]
-constexpr double kGripSpreads = 3;         // threshold in standard deviations
-constexpr double kLeastRise = 0.05;  // least threshold, because grip without noise has no SD [N]
+constexpr double kGripSpreads = 3;         // threshold, in standard deviations
+constexpr double kLeastRise = 0.05;  // minimum threshold, as noise-free grip has an SD of 0 [N]
 constexpr double kToMm2 = 1e6;
-constexpr double kLeastTime = 0.05;   // duration of a movement [s]
-constexpr double kLeastShare = 0.1;   // share of the line that a movement covers
-constexpr double kIndexTime = 0.1;    // duration of a movement whose force is compared [s]
-constexpr double kIndexShare = 0.5;   // of the line
-constexpr double kLeastIdeal = 0.05;  // root mean square of the ideal force [N]
+constexpr double kLeastTime = 0.05;   // minimum duration of a movement [s]
+constexpr double kLeastShare = 0.1;   // fraction of the line that a movement must cover
+constexpr double kIndexTime = 0.1;    // minimum duration of a movement for comparing forces [s]
+constexpr double kIndexShare = 0.5;   // fraction of the line that such a movement must cover
+constexpr double kLeastIdeal = 0.05;  // minimum root mean square of the ideal force [N]
 
 using Values = std::vector<double>;
 
-/// The value largest in magnitude, with its sign.
+/// Returns the value with the largest magnitude, with its sign.
 double largest_by_size(std::span<const double> x) {
     return *std::max_element(x.begin(), x.end(),
                              [](double a, double b) { return std::abs(a) < std::abs(b); });
@@ -42,7 +42,7 @@ double time_of_phase(const std::vector<MotionSample>& samples, int phase) {
     return found == samples.end() ? kUnmeasured : found->time;
 }
 
-/// y over x by least squares.
+/// Linear least-squares regression of y on x.
 struct Regression {
     Regression(std::span<const double> x, std::span<const double> y) {
         const auto n = static_cast<double>(x.size());
@@ -70,7 +70,7 @@ size_t columns_in(const task::MeasureRow& row) {
                       [](const task::MeasureColumn& c) { return c.name != nullptr; }));
 }
 
-/// Leaves out values outside their plausible range.
+/// Removes values outside their plausible range.
 void leave_out_nonsense(const task::MeasureRow& row, MeasuredValues& measured) {
     for (size_t i = 0; i < measured.values.size(); ++i) {
         const task::MeasureColumn& column = row.columns[i];
@@ -104,7 +104,7 @@ AttemptMeasures::AttemptMeasures(const Attempt& attempt, const task::Movement& o
 std::string AttemptMeasures::find_movement(const MeasurePhases& phases) {
     if (std::string why = find_run(phases); !why.empty()) return why;
     const std::span<const double> speed = speed_;
-    // a stroke that had begun before the states, or is too small, is skipped
+    // a stroke that began before the states, or that is too small, is skipped
     bool before = false;
     for (size_t from = 0;;) {
         const Stroke stroke = first_stroke(speed.subspan(from));
@@ -125,12 +125,13 @@ std::string AttemptMeasures::find_movement(const MeasurePhases& phases) {
     }
 }
 
-/// Finds the onset, from a tick on, and the end of the movement around a stroke's peak.
+/// Finds the onset (at or after a given tick) and the end of the movement around the peak of a
+/// stroke.
 void AttemptMeasures::find_ends(size_t from, size_t peak) {
     peak_ = onset_ = peak;
     const double threshold = options_.onset_speed.value_or(options_.onset_share * speed_[peak]);
     while (onset_ > from && speed_[onset_ - 1] >= threshold) --onset_;
-    // shorter pauses belong to the movement
+    // shorter pauses count as part of the movement
     const auto pause = static_cast<size_t>(std::round(options_.end_still / tick_));
     end_ = run_.size();
     size_t slow = 0;
@@ -183,7 +184,7 @@ std::string AttemptMeasures::why_no_index() const {
         return fmt::format("the movement covered {:.0f} % of the line, less than {:.0f} %",
                            100 * share, 100 * kIndexShare);
     const Values ideals = while_in_channel(ideal_);
-    // from the first of these ticks to the last
+    // time between the first and the last of these ticks
     const double lasted = (static_cast<double>(ideals.size()) - 1) * tick_;
     if (lasted < kIndexTime)
         return fmt::format("the movement lasted {:.0f} ms{}, less than {:.0f}", 1e3 * lasted,
@@ -220,7 +221,7 @@ std::string AttemptMeasures::why_missing(const task::MeasureRow& row) const {
     return attempt_.lift == nullptr ? "no lift" : "";
 }
 
-/// Why a value other than the first is missing.
+/// Returns the reason why a value other than the first is missing.
 std::string AttemptMeasures::why_in_part(const task::MeasureRow& row) const {
     return row.needs == task::kInChannel && !in_channel(peak_) ? "no channel acted at peak speed"
                                                                : "";
@@ -231,7 +232,7 @@ MeasuredValues AttemptMeasures::measure(const task::MeasureRow& row) const {
     struct Rule {
         const char* name;
         Values (*compute)(const A&);
-        const char* otherwise;  // reason why the first value is missing; null: the lift's mark
+        const char* otherwise;  // why the first value is missing; null if the lift's mark says so
     };
     static constexpr const char* kNever = "not to be computed";
     static constexpr const char* kAxis = "the axis lies along the line";
@@ -280,7 +281,7 @@ MeasuredValues AttemptMeasures::measure(const task::MeasureRow& row) const {
             out.why = rule.otherwise != nullptr ? rule.otherwise : "lift: " + lift().mark;
     }
     if (out.why.empty()) out.why = why_in_part(row);
-    // known with or without a movement
+    // known even if there is no movement
     if (row.needs & task::MeasureRow::ideal)
         out.values.back() = attempt_.plan.field_share * attempt_.share;
     leave_out_nonsense(row, out);
@@ -294,7 +295,7 @@ double AttemptMeasures::path_length() const {
 }
 
 Values AttemptMeasures::lateral_deviation() const {
-    double area = 0;  // by the trapezoidal rule, along the line
+    double area = 0;  // integrated along the line by the trapezoidal rule
     for (size_t i = onset_; i < end_; ++i)
         area += (left_[i] + left_[i + 1]) / 2 * (run_[i + 1].p_W - run_[i].p_W).dot(along_W_);
     return {left_[onset_ + first_turn(whole(left_))], left_[peak_], area * kToMm2};
@@ -367,9 +368,9 @@ Values AttemptMeasures::grip_latency() const {
 }
 
 Stroke first_stroke(std::span<const double> speed) {
-    constexpr double kLeast = 0.25;  // of the largest speed
-    constexpr double kFall = 0.2;    // of the stroke's own peak
-    constexpr double kRise = 0.1;    // of the largest speed
+    constexpr double kLeast = 0.25;  // fraction of the largest speed
+    constexpr double kFall = 0.2;    // fraction of the stroke's own peak speed
+    constexpr double kRise = 0.1;    // fraction of the largest speed
     const double most = speed.empty() ? 0 : *std::max_element(speed.begin(), speed.end());
     Stroke out;
     for (size_t i = 0; i < speed.size() && most > 0; ++i) {
@@ -388,7 +389,7 @@ Stroke first_stroke(std::span<const double> speed) {
 
 size_t first_turn(std::span<const double> x) {
     constexpr double kLeast = 0.002;  // [m]
-    constexpr double kShare = 0.1;    // of the range
+    constexpr double kShare = 0.1;    // fraction of the range
     if (x.empty()) return 0;
     const auto [least, most] = std::minmax_element(x.begin(), x.end());
     const double turn = std::max(kLeast, kShare * (*most - *least));
@@ -407,12 +408,12 @@ size_t first_turn(std::span<const double> x) {
 double spectral_arc_length(std::span<const double> speed, double tick) {
     constexpr double kHighest = 10;  // [Hz]
     constexpr double kLeastShare = 0.05;
-    constexpr int kPadding = 4;  // powers of two
+    constexpr int kPadding = 4;  // zero padding by a factor of 2^4
     if (speed.size() < 2) return kUnmeasured;
     const auto powers =
         static_cast<int>(std::ceil(std::log2(static_cast<double>(speed.size())))) + kPadding;
-    const double step = 1 / (tick * std::ldexp(1.0, powers));  // distance between frequencies [Hz]
-    // a speed is never negative, so its largest amplitude is at frequency 0
+    const double step = 1 / (tick * std::ldexp(1.0, powers));  // spacing of the frequencies [Hz]
+    // a speed is never negative, so its amplitude spectrum is largest at frequency 0
     const double most = std::accumulate(speed.begin(), speed.end(), 0.0);
     if (!(most > 0)) return kUnmeasured;
     Values amplitude;

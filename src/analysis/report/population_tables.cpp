@@ -13,13 +13,14 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// A session's participant; sessions without a name count as different people.
+/// A session's participant. Sessions without a participant ID count as different people.
 std::string person_of(const SessionData& session) {
     const std::string& id = session.info.participant.id;
     return id.empty() ? session.folder.path() : id;
 }
 
-/// Values of people. A person with several sessions counts once, with the mean of their values.
+/// Values per person. A person with several sessions counts once, with the mean of the sessions'
+/// values.
 class ByPerson {
   public:
     void add(const std::string& person, double value) {
@@ -36,10 +37,10 @@ class ByPerson {
 
   private:
     std::map<std::string, size_t> index_;
-    std::vector<std::vector<double>> values_;  // by person, in the order of their first sessions
+    std::vector<std::vector<double>> values_;  // values of each person, ordered by first session
 };
 
-/// Adds the source of the hands' movement to the table's rows from `first` on.
+/// Marks the table's rows from `first` on with the source of the hand movement.
 void mark(Table& table, size_t first, const recording::MovedBy& by) {
     for (size_t i = first; i < table.rows.size(); ++i) {
         table.rows[i].emplace_back(by.simulated());
@@ -69,7 +70,7 @@ void add_person(PopulationTables& out, const std::string& title, const SessionDa
     add_row(out.people, row);
 }
 
-/// Lists statistics over people.
+/// Lists the statistics of a sample of people.
 void list(FigureLister& row, const Sample& people) {
     row("people", people.count, "1", "number of people");
     row("mean", people.mean, "1", "mean over people");
@@ -78,8 +79,8 @@ void list(FigureLister& row, const Sample& people) {
     row("mean_high", people.mean_interval.high, "1", "upper end of that interval");
 }
 
-/// Adds the mean over people, trial by trial. Catch trials, whose positions differ between people,
-/// and all but the last attempt at a trial are left out.
+/// Adds the mean over people for each trial. Leaves out catch trials, whose positions differ
+/// between people, and all but the last attempt at each trial.
 void add_mean_curve(PopulationTables& out, const std::string& title, const std::string& round,
                     const std::vector<PersonCurve>& people) {
     std::map<int, ByPerson> by_place;
@@ -107,7 +108,7 @@ void add_mean_curve(PopulationTables& out, const std::string& title, const std::
     }
 }
 
-/// Adds the sessions whose learning has no measure, with the reasons.
+/// Adds the sessions with perturbations for which learning has no measure, with the reasons.
 void add_not_measured(PopulationTables& out, const std::string& title, const Sessions& sessions) {
     for (const FittedSession* session : sessions) {
         const SessionData& data = session->data;
@@ -160,14 +161,14 @@ void add_thresholds(PopulationTables& out, const std::string& title, const Sessi
     }
 }
 
-/// Figures of lifts whose medians are in tables over people.
+/// The lift figures whose medians appear in the tables over people.
 constexpr double rows::LiftRow::*kLiftFigures[] = {
     &rows::LiftRow::preload,        &rows::LiftRow::loading,       &rows::LiftRow::peak_grip_rate,
     &rows::LiftRow::peak_load_rate, &rows::LiftRow::peak_grip,     &rows::LiftRow::static_grip,
     &rows::LiftRow::static_load,    &rows::LiftRow::static_ratio,  &rows::LiftRow::safety_margin,
     &rows::LiftRow::grip_load_r,    &rows::LiftRow::grip_load_lag, &rows::LiftRow::overshoot};
 
-/// One figure of each of these lifts, in the unit of its column.
+/// Returns one figure of each of the lifts, in the unit of the figure's column.
 template <class Lifts, class Member>
 std::vector<double> values_of(const Lifts& lifts, Member rows::LiftRow::*figure) {
     const double scale = figure_column(figure).scale;
@@ -177,7 +178,7 @@ std::vector<double> values_of(const Lifts& lifts, Member rows::LiftRow::*figure)
 }
 
 void add_lifts(PopulationTables& out, const std::string& title, const Sessions& sessions) {
-    // each session's median is taken first, because people differ more than lifts
+    // the median of each session is taken first, because people differ more than lifts do
     std::vector<std::string> groups;
     std::map<std::string, std::map<std::string, ByPerson>> medians;
     for (const FittedSession* session : sessions) {
@@ -208,19 +209,19 @@ void add_lifts(PopulationTables& out, const std::string& title, const Sessions& 
     }
 }
 
-/// Columns of the trials with the task's measures.
+/// Returns the columns of trials.csv that contain the task's measures.
 std::vector<Table::Column> measured_columns(const SessionData& session) {
     const rows::TrialFile& trials = session.trials;
     std::vector<Table::Column> out = measure_columns_of(session.task);
-    out.pop_back();  // the column of missing measures
+    out.pop_back();  // drop the column that lists the missing measures
     std::erase_if(out, [&](const Table::Column& c) { return !trials.column(c.name); });
-    // in a session without the measures, a column with this name is a different one
+    // if the session has no measures, a column with such a name is something else
     if (!trials.column(task::kNotMeasured)) out.clear();
     return out;
 }
 
-/// Lists the measures and answers of the last attempts at trials, by the study's group and session,
-/// and by round, block, condition, kind of trial and perturbation.
+/// Lists the measures and answers of the last attempt at each trial, grouped by the study's group
+/// and session, and by round, block, condition, kind of trial and perturbation.
 void list_measures(PopulationTables& out, const std::string& title, const Sessions& sessions) {
     // group, session, round, block, condition, kind, perturbation
     using Key = std::array<std::string, 7>;
@@ -237,7 +238,7 @@ void list_measures(PopulationTables& out, const std::string& title, const Sessio
             const rows::TrialFile& trials = data.trials;
             const auto measured = trials.column(column.name);
             const recording::InStudy in_study = data.info.in_study.value_or(recording::InStudy{});
-            std::map<int, size_t> last;  // row of the last attempt, by trial
+            std::map<int, size_t> last;  // row of the last attempt, indexed by trial
             for (size_t i = 0; i < trials.size(); ++i) last[trials[i].asked.trial] = i;
             for (const auto& [trial, i] : last) {
                 const rows::AskedRow& asked = trials[i].asked;
@@ -254,7 +255,7 @@ void list_measures(PopulationTables& out, const std::string& title, const Sessio
         }
         for (const auto& [key, of_people] : values) {
             if (c >= measures && empty[key] == trials_of[key])
-                continue;  // not asked for in these trials
+                continue;  // the measure was not requested in these trials
             FigureLister row;
             row("experiment", title, "", "title");
             row("group", key[0], "", "group of the study; empty: none");
@@ -286,7 +287,7 @@ std::array<Table*, 5> tables_of(PopulationTables& tables) {
             &tables.measures};
 }
 
-/// Adds the sessions of one sample.
+/// Adds the tables for the sessions of one sample.
 void add_sample(PopulationTables& out, const Sessions& sessions) {
     std::vector<size_t> first;
     for (const Table* table : tables_of(out)) first.push_back(table->rows.size());

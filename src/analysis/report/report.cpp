@@ -26,7 +26,7 @@ void write(std::vector<std::string>& written, const Table& table, const std::str
     written.push_back(file);
 }
 
-/// Writes the tables of one session into its folder, and returns their files.
+/// Writes the tables of one session into the session's folder. Returns the names of the files.
 std::vector<std::string> write_tables_of(const FittedSession& session) {
     const SessionTables made = session_tables(session);
     std::vector<std::string> out;
@@ -42,8 +42,8 @@ std::vector<std::string> write_tables_of(const FittedSession& session) {
     return out;
 }
 
-/// Reads the session's log to its end: it may have been damaged since the tables were made. Throws
-/// Error when it cannot be read.
+/// Reads the session's log to its end, because the log may have been damaged since the tables were
+/// made, and returns the log's faults. Throws Error when the log cannot be read.
 std::vector<std::string> faults_of_log(const SessionData& session,
                                        const std::function<void(double)>& progress) {
     recording::RawLogReader log(session.folder.raw_log());
@@ -60,7 +60,7 @@ std::vector<std::string> faults_of_log(const SessionData& session,
     return out;
 }
 
-/// What was written into note.txt by hand, or why it is not shown.
+/// Returns what was written by hand into note.txt, or why it cannot be shown.
 std::string note_in(const SessionData& session) {
     const std::string file = session.folder.file("note.txt");
     try {
@@ -92,7 +92,7 @@ ReportResult report_session(const std::string& path, const std::function<void(do
     result.paths = {data.folder.path()};
     result.sessions = 1;
     result.changed = data.changed;
-    // a rehearsal has no log
+    // a rehearsal has no raw.log
     if (is_there(data.folder.raw_log())) result.log = faults_of_log(data, progress);
     result.tables = write_tables_of(session);
     ReportSample& sample = result.samples.emplace_back(sample_of({&session}));
@@ -112,7 +112,7 @@ Error none_ended(const std::string& folder, const std::vector<std::string>& left
     return Error(problems);
 }
 
-/// The sessions in a folder that can be read. Reports why others are left out.
+/// Reads those sessions in a folder that can be read. Reports why the others are left out.
 std::vector<SessionData> read_sessions(ReportResult& result, const std::string& folder,
                                        const std::function<void(double)>& progress) {
     std::vector<SessionData> out;
@@ -128,21 +128,22 @@ std::vector<SessionData> read_sessions(ReportResult& result, const std::string& 
     return out;
 }
 
-/// Leaves out copies of sessions, sessions that are parts of others, and those cut short.
+/// Removes copies of sessions, sessions that are parts of other sessions, and sessions that were
+/// cut short.
 void leave_out(ReportResult& result, std::vector<SessionData>& sessions,
                const CountsInStudy& counts) {
-    // a session that is resumed by another one is part of it
+    // a session that another session resumes is a part of it
     std::set<std::string> earlier;
     for (const SessionData& session : sessions) {
         if (!session.info.resumes.empty())
             earlier.insert(fs::path(session.info.resumes).filename().string());
     }
-    std::map<std::string, std::string> folders;  // by the session's identity
+    std::map<std::string, std::string> folders;  // indexed by the session's identity
     std::erase_if(sessions, [&](const SessionData& session) {
         const std::string name = fs::path(session.folder.path()).filename().string();
         const std::string& identity = session.info.identity;
         const auto [first, is_new] = folders.emplace(identity, session.folder.path());
-        // on the virtual clock, a session that is run twice is identical to the bit, but not a copy
+        // on the virtual clock, two runs of a session are identical, but neither is a copy
         if (!is_new && !identity.empty() && session.info.clock == "real") {
             result.left_out.push_back(session.folder.path() + ": it is the same session as " +
                                       first->second);
@@ -164,8 +165,8 @@ void leave_out(ReportResult& result, std::vector<SessionData>& sessions,
     });
 }
 
-/// Fits the sessions and writes each one's tables into its folder. A folder that cannot be written,
-/// as in an archive, does not keep the others from being reported.
+/// Fits the sessions, and writes the tables of each session into the session's folder. If a folder
+/// cannot be written, as in an archive, the other sessions are still reported.
 std::vector<FittedSession> fit_and_write(ReportResult& result, std::vector<SessionData> sessions,
                                          const std::function<void(double)>& progress) {
     std::vector<FittedSession> out;
@@ -240,7 +241,7 @@ void ReportResult::add(const ReportResult& other) {
 
 ReportResult write_tables(const std::string& path, const std::function<void(double)>& progress,
                           const CountsInStudy& counts) {
-    std::error_code unreadable;  // report_session() then reports that the path is not a session
+    std::error_code unreadable;  // report_session() will then report that the path is not a session
     const bool is_folder = fs::is_directory(path, unreadable);
     if (!is_folder || is_there(path + "/session.yaml") || is_there(path + "/raw.log"))
         return report_session(path, progress);

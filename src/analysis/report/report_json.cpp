@@ -53,7 +53,7 @@ std::string report_json(const ReportResult& result, const std::string& command) 
                          {"unwritten", texts_of(result.unwritten)},
                          {"faults", result.log},
                          {"samples", std::move(samples)}};
-    // a name from a file may be invalid UTF-8: it is shown with a replacement character
+    // a file name may be invalid UTF-8; invalid bytes become replacement characters
     return out.dump(-1, ' ', false, ReportJson::error_handler_t::replace);
 }
 

@@ -1,5 +1,5 @@
-// Tells the Python package, which draws the page of a report, what the tables next to it do not
-// contain.
+// Passes on to the Python package, which draws the page of a report, whatever the tables next to
+// the page do not contain.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace dihaptic::analysis {
 
-/// JSON text. `command`: the command line, shown on the page.
+/// Returns the report as JSON text. `command`: the command line that is shown on the page.
 std::string report_json(const ReportResult& result, const std::string& command);
 
 }  // namespace dihaptic::analysis

@@ -26,8 +26,8 @@ std::vector<Problem> changed_of(const recording::SessionFolder& folder,
     return out;
 }
 
-/// Throws Error when the table cannot be read; the message contains what is known about its
-/// original state.
+/// Reads trials.csv. Throws Error when the table cannot be read; the message says what is known
+/// about the original state of the table.
 rows::TrialFile trials_of(const recording::SessionFolder& folder,
                           const std::vector<Problem>& changed) {
     try {
@@ -39,7 +39,8 @@ rows::TrialFile trials_of(const recording::SessionFolder& folder,
     }
 }
 
-/// Takes the numbers of skipped reversals from the task, since the recorded procedures lack them.
+/// Takes the number of skipped reversals from the task, since the recorded procedures do not
+/// contain it.
 void note_skipped_reversals(std::vector<ThresholdTrack>& tracks, const task::Task& task) {
     for (ThresholdTrack& track : tracks) {
         for (const task::ProcedureSpec& spec : task.procedures) {
@@ -49,7 +50,7 @@ void note_skipped_reversals(std::vector<ThresholdTrack>& tracks, const task::Tas
     }
 }
 
-/// Whether the cursor is hidden in the state, in trials of this round and condition.
+/// Whether the cursor is hidden in this state, for trials of this round and condition.
 bool hides_cursor(const task::Task& task, const std::string& state, const rows::AskedRow& asked) {
     for (const task::State& one : task.states) {
         if (one.name == state && one.show.cursor == task::Cursor::no) return true;
@@ -69,20 +70,20 @@ bool hides_cursor(const task::Task& task, const std::string& state, const rows::
     return of(task.conditions, asked.condition) || of(task.rounds, asked.round);
 }
 
-/// Whether the cursor is held in the state, as feedback on a movement that has ended.
+/// Whether the cursor is frozen in this state, to give feedback on a movement that has ended.
 bool holds_cursor(const task::Task& task, const std::string& state) {
     return std::ranges::any_of(task.states, [&](const task::State& one) {
         return one.name == state && one.show.cursor == task::Cursor::held;
     });
 }
 
-/// In a reach with a hidden cursor the person saw no error, unless its end point was shown later in
-/// the trial.
+/// Notes that no error was seen in reaches with a hidden cursor, unless the end point of the reach
+/// was shown later in the trial.
 void note_hidden_cursor(SessionData& data) {
     if (!data.task.reach || !is_there(data.folder.file("phases.csv"))) return;
     const auto& during = data.task.reach->during;
-    std::map<int, std::string> state;     // state in which a trial's last reach was made
-    std::map<int, std::string> feedback;  // later state that shows its end
+    std::map<int, std::string> state;     // state in which the last reach of a trial was made
+    std::map<int, std::string> feedback;  // later state in which its end point is shown
     for (const rows::PhaseRow& phase : rows::PhaseFile(data.folder.file("phases.csv"))) {
         const auto& names = static_cast<const Texts&>(during);
         if (std::ranges::find(names, phase.name) != names.end()) {
@@ -110,7 +111,7 @@ void note_hidden_cursor(SessionData& data) {
     }
 }
 
-/// Finds the curves of adaptation, and of its generalisation.
+/// Computes the adaptation curves and the generalisation.
 void find_curves(SessionData& data) {
     const bool in_channels = has_adaptation_index(data.trials);
     if (in_channels)
@@ -121,10 +122,10 @@ void find_curves(SessionData& data) {
     const bool in_errors = !errors.empty() && data.trials.column(errors);
     if (in_errors) {
         data.curves = error_curves(data.trials, errors);
-        data.unmeasured.clear();  // the curves' notes state what is not visible
+        data.unmeasured.clear();  // the curves' notes say what is not visible
     }
     if (!in_channels && !in_errors) note_hidden_cursor(data);
-    // the effect of a channel or a field on the hand does not show the learning
+    // the hand's angle does not show the learning of a force channel or a force field
     if (!data.curves.empty() && !in_channels && !in_errors && data.unmeasured.empty() &&
         is_there(data.folder.file("trial-list.csv")))
         data.generalisation = find_generalisation(
@@ -171,7 +172,7 @@ SessionData SessionData::read(const std::string& path) {
 bool SessionData::is_cut_short() const {
     if (!is_there(folder.file("trial-list.csv"))) return false;
     if (info.state == recording::SessionState::interrupted) return true;
-    // for a killed session, the last trial decides
+    // for a killed session, the last trial decides whether it was complete
     return info.state == recording::SessionState::recovered &&
            (trials.empty() || trials.back().measures.outcome == rows::kInterrupted);
 }
@@ -201,7 +202,7 @@ std::vector<std::string> find_sessions(const std::string& folder) {
 }
 
 std::vector<std::string> groups_of_lifts(const SessionData& session) {
-    std::map<std::pair<int, int>, std::string> groups;  // by trial and attempt
+    std::map<std::pair<int, int>, std::string> groups;  // indexed by trial and attempt
     for (const rows::TrialRow& row : session.trials) {
         std::string group;
         const auto add = [&](std::string_view text) {
@@ -209,7 +210,7 @@ std::vector<std::string> groups_of_lifts(const SessionData& session) {
         };
         add(row.asked.round);
         add(row.asked.block);
-        // a block often has the name of its kind, and without a task both are missing
+        // a block is often named after its kind; without a task there is neither
         const std::string_view kind = enum_name(row.asked.kind);
         if (!row.asked.block.empty() && !group.ends_with(kind)) add(kind);
         add(row.asked.condition);

@@ -1,4 +1,4 @@
-// The tables of a session from which a report is made.
+// Reads those tables of a session from which a report is made.
 #pragma once
 
 #include <optional>
@@ -23,21 +23,21 @@ struct SessionData {
     std::vector<AdaptationCurve> curves;
     std::vector<ThresholdTrack> tracks;
     std::vector<Generalisation> generalisation;
-    std::vector<Problem> changed = {};  ///< warnings of changes in its files since it ended
-    Unmeasured unmeasured = {};  ///< perturbations in the trials whose learning has no measure
+    std::vector<Problem> changed = {};  ///< warnings about files changed after the session ended
+    Unmeasured unmeasured = {};  ///< perturbations in the trials for which learning has no measure
 
-    /// The perturbations in `unmeasured`, e.g. "sideways is a mass that differs by direction";
-    /// empty if all are measured.
+    /// Describes the perturbations in `unmeasured`, e.g. "sideways is a mass that differs by
+    /// direction"; empty if the learning of all perturbations is measured.
     std::string not_measured() const;
     /// Throws Error when `path` is not a session, or when the session has not ended.
     static SessionData read(const std::string& path);
 
-    /// Whether the session ended before its trials were done; such a session is left out of means
-    /// over people.
+    /// Whether the session ended before its trials were completed. Such a session is excluded from
+    /// means over people.
     bool is_cut_short() const;
 
-    /// Whether a simulated person stood in for a study's participant, in the participant's folder
-    /// (`run --simulate`); such a session does not belong to the study.
+    /// Whether a simulated person stood in for a participant of a study, in the participant's
+    /// folder (`run --simulate`). Such a session does not count as part of the study.
     bool stands_in() const;
 
     std::string participant() const {
@@ -45,11 +45,11 @@ struct SessionData {
     }
 };
 
-/// Folders of the sessions in a folder, at any depth, sorted by name.
+/// Returns the folders of all sessions in a folder, at any depth, sorted by name.
 std::vector<std::string> find_sessions(const std::string& folder);
 
-/// For each row of lifts.csv, the demands of its trial: "round, block, kind, condition", as far as
-/// the trial has them.
+/// For each row of lifts.csv, returns a description of the trial: "round, block, kind, condition",
+/// as far as the trial has them.
 std::vector<std::string> groups_of_lifts(const SessionData& session);
 
 }  // namespace dihaptic::analysis

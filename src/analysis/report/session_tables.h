@@ -1,4 +1,4 @@
-// Makes the tables of one session's learning and thresholds, and of what is fitted to them.
+// Makes the tables of one session's learning and thresholds, including the fits.
 #pragma once
 
 #include <optional>
@@ -8,19 +8,20 @@
 
 namespace dihaptic::analysis {
 
-/// A session with all that is fitted to it, which is computed once for its own tables and for those
-/// over people.
+/// A session with all of its fits, which are computed once and used both for its own tables and for
+/// the tables over people.
 struct FittedSession {
     explicit FittedSession(SessionData session);
 
     SessionData data;
-    std::vector<std::optional<AdaptationFits>> adaptation;  ///< of each of its curves
-    std::vector<ThresholdFit> thresholds;                   ///< of each of its tracks
+    std::vector<std::optional<AdaptationFits>> adaptation;  ///< one fit for each curve
+    std::vector<ThresholdFit> thresholds;                   ///< one fit for each track
 };
 
-/// The tables, without the columns that state who moved the hand (recording::marked()).
+/// The tables of a session, without the columns that state who moved the hand
+/// (recording::marked()).
 struct SessionTables {
-    Table adaptation{};      ///< a row per reach; empty without reaches
+    Table adaptation{};      ///< a row per reach; empty if there are no reaches
     Table fits{};            ///< a row per round
     Table blocks{};          ///< a row per block of reaches
     Table generalisation{};  ///< a row per direction

@@ -1,5 +1,5 @@
-// Statistics of a sample, as papers report them. NaNs are left out; statistics of too few values
-// are NaN.
+// Statistics of a sample, as usually published. NaNs are left out; statistics that would be based
+// on too few values are NaN.
 #pragma once
 
 #include <span>
@@ -12,19 +12,19 @@ namespace dihaptic::analysis {
 struct Sample {
     int count = 0;
     double mean = 0;
-    double sd = 0;           ///< standard deviation, with n - 1
-    Interval mean_interval;  ///< 95 %, by Student's t
+    double sd = 0;           ///< standard deviation, with the divisor n - 1
+    Interval mean_interval;  ///< 95 % confidence interval of the mean, by Student's t
     double median = 0;
     Interval quartiles;
 };
 
 Sample sample(std::span<const double> values);
 
-/// Half of the 95 % interval of the difference between two samples' means, whose spreads may differ
-/// (Welch 1947).
+/// Half the width of the 95 % confidence interval for the difference between the means of two
+/// samples whose spreads may differ (Welch 1947).
 double welch_half_width(const Sample& a, const Sample& b);
 
-/// E.g. "0.12 to 0.34"; "-" if an end is NaN.
+/// Formats an interval, e.g. "0.12 to 0.34"; "-" if either end is NaN.
 std::string in_words(const Interval& interval);
 
 }  // namespace dihaptic::analysis

@@ -1,4 +1,4 @@
-// Tests the measures of ten thousand spoilt reaches.
+// Tests the measures for ten thousand randomly spoilt reaches.
 #include "analysis/test/reaches.h"
 
 namespace dihaptic::analysis::measures_test {

@@ -1,5 +1,6 @@
-// Fits five hundred synthetic people with parameters from a wide range: no fit may have a larger
-// squared error than the true parameters, and none of a hundred starts may lead to a smaller one.
+// Fits five hundred synthetic people with parameters from a wide range. No fit may have a larger
+// squared error than the true parameters, and no search from one of a hundred starting points may
+// find a smaller error.
 #include <gtest/gtest.h>
 
 #include "analysis/fits/test/wide_people.h"

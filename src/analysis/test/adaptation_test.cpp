@@ -23,7 +23,7 @@ TEST(AdaptationCurves, CountTheLastAttemptOfATrial) {
     EXPECT_TRUE(std::isnan(curves[0].trials[0].compensation));
     EXPECT_EQ(curves[0].trials[1].compensation, 10);
     EXPECT_EQ(curves[0].trials[2].compensation, 12);
-    // the error was seen all the same
+    // the person saw the error nevertheless
     EXPECT_NEAR(curves[0].trials[0].perturbation, 30, 1e-9);
     EXPECT_FALSE(curves[0].trials[0].clamp);
 }

@@ -10,7 +10,8 @@
 namespace dihaptic::analysis::analysis_test {
 namespace {
 
-/// Frame i of a second in which two fingers, 4 cm apart along x, hold body 1.
+/// Returns frame i of a recording of one second in which two fingers, 4 cm apart along x, hold body
+/// 1.
 frame::Frame held(int i) {
     frame::Frame frame;
     frame.sequence = i;
@@ -63,7 +64,7 @@ TEST(FaultRecord, KeepsWhatLedToEachFaultOfASessionThatWentOn) {
     FaultRecord record({"thumb", "index"});
     for (int i = 0; i < 6000; ++i) {
         frame::Frame frame = held(i);
-        // force is off from the first fault to the remedy, and again after the second fault
+        // force is off from the first fault until it is remedied, and again after the second fault
         const bool off = (i >= 2000 && i < 3000) || i >= 3500;
         if (off) frame.status = kForceOff;
         if (i == 3000) frame.status = kResumed;
@@ -202,7 +203,7 @@ TEST(GraspTrace, LiftOffIsWhenOnlyFingersCarryTheObject) {
     EXPECT_EQ(trace.lift_off(), 400u);
 }
 
-/// Each event as text: time [ms], name, detail.
+/// Returns each event as text: time [ms], name and detail.
 std::vector<std::string> said_by(const EventFinder& finder) {
     std::vector<std::string> said;
     for (const rows::EventRow& e : finder.events())

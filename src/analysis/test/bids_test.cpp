@@ -1,4 +1,5 @@
-// Tests a session's export to a BIDS data set against the names and columns of the specification.
+// Tests the export of a session to a BIDS data set against the names and columns in the
+// specification.
 #include "analysis/bids.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A session of three ticks with one finger.
+/// Makes a session of three ticks with one finger.
 recording::SessionFolder session(const std::string& parent, const std::string& state) {
     const auto folder = recording::SessionFolder::create(parent, "reach");
     recording::LogHead head;
@@ -76,7 +77,7 @@ TEST(Bids, HasTheFilesAndColumnsThatTheSpecificationAsksFor) {
     EXPECT_EQ(motion, set + "/sub-S07/motion");
     const std::string stem = motion + "/sub-S07_task-visuomotorrotation_tracksys-index_run-01_";
     const auto rows = lines(testing::read_file(stem + "motion.tsv"));
-    ASSERT_EQ(rows.size(), 3u);  // there is no header
+    ASSERT_EQ(rows.size(), 3u);  // motion.tsv has no header
     EXPECT_TRUE(rows[1].starts_with("0.001\t0.5\t-0.25\t")) << rows[1];
     EXPECT_TRUE(rows[1].ends_with("\t0.001")) << rows[1];
     const auto channels = lines(testing::read_file(stem + "channels.tsv"));
@@ -92,7 +93,7 @@ TEST(Bids, HasTheFilesAndColumnsThatTheSpecificationAsksFor) {
     EXPECT_EQ(json["MotionChannelCount"], columns(rows[0]));
     const auto events =
         lines(testing::read_file(motion + "/sub-S07_task-visuomotorrotation_run-01_events.tsv"));
-    // trials of this session only, with their demands and measures; moments have only the demands
+    // only this session's trials, with their demands and measures; events have only the demands
     ASSERT_EQ(events.size(), 4u);
     EXPECT_EQ(events[0],
               "onset\tduration\ttrial_type\tvalue\ttrial_num\tattempt\tblock\tcondition\toutcome"

@@ -1,5 +1,5 @@
-// Tests corrections against planted ones: the latency of a minimum-jerk correction in noise, and
-// the reasons why there is none.
+// Tests the detection of simulated corrections: the latency of a minimum-jerk correction in noise,
+// and the reasons for a missing latency.
 #include "analysis/corrections.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kTick = 1e-3;
 
-/// Trials with a correction of `size` [m] that begins at `onset` and lasts 0.4 s, on drifts that
-/// differ between trials.
+/// Trials with a correction of `size` [m] that begins at `onset` and lasts 0.4 s, in addition to a
+/// drift that differs between trials.
 struct Planted {
     std::vector<Velocities> trials;
 
@@ -40,8 +40,8 @@ struct Planted {
     }
 };
 
-/// Where the line through a quarter and three quarters of a minimum-jerk acceleration's first peak
-/// reaches 0, from the onset of a movement of 0.4 s.
+/// Returns the time, from the onset of a movement of 0.4 s, at which the line through a quarter and
+/// three quarters of the first peak of a minimum-jerk acceleration reaches 0.
 double bias() {
     // a(s) = 60 s (1 - s) (1 - 2 s), whose peak is at s = (3 - sqrt(3)) / 6
     const auto a = [](double s) { return s * (1 - s) * (1 - 2 * s); };
@@ -99,7 +99,7 @@ TEST(Corrections, AreComparedAsFarAsMostTrialsLast) {
     const Planted matched(20, 0, 0, 2);
     const rows::CorrectionRow whole = find_correction(jumped.all(), matched.all(), kTick);
     EXPECT_NEAR(whole.compared, 0.8, 1e-9);
-    jumped.trials[3].resize(320);  // one trial that ended early
+    jumped.trials[3].resize(320);  // one of the trials ended early
     const rows::CorrectionRow row = find_correction(jumped.all(), matched.all(), kTick);
     EXPECT_EQ(row.left_out, 1);
     EXPECT_NEAR(row.compared, 0.8, 1e-9);

@@ -1,4 +1,4 @@
-// Tests the figures of episodes on frames whose figures are known.
+// Tests the figures of episodes, using frames for which the figures are known.
 #include "analysis/episodes.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ ObjectFacts facts() {
     return {kMass, kGravity, {kFriction, 0}, {}};
 }
 
-/// Body 0 is the table, body 1 the object, which nothing touches; bodies 2 to 5 are four fingers.
+/// Returns frame i. Body 0 is the table, body 1 is the object, which nothing touches, and bodies 2
+/// to 5 are four fingers.
 frame::Frame frame_at(int i) {
     frame::Frame frame;
     frame.sequence = i;
@@ -50,8 +51,8 @@ std::vector<Episode> episodes_of(int count, const std::function<void(int, frame:
     return find_episodes(trace, object);
 }
 
-/// Episodes of an object that is held and raised at v0 for 0.1 s, then flies for 0.2 s, in steps
-/// like the World's.
+/// Returns the episodes of an object that is held and raised at v0 for 0.1 s and then flies for 0.2
+/// s, with time steps like those of the World.
 std::vector<Episode> thrown(const Vec3& v0, const Vec3& v_hand, const Vec3& gravity) {
     Vec3 p = Vec3::Zero();
     Vec3 v = v0;
@@ -79,7 +80,7 @@ TEST(Episodes, AFlightIsBallisticAndItsReleaseIsComparedWithTheHand) {
     EXPECT_NEAR(flight.start, 0.1, 1e-12);
     EXPECT_NEAR(flight.release_speed, v.norm(), 1e-12);
     EXPECT_NEAR(flight.release_ratio, 1.25, 1e-12);
-    // velocities are those of the middle of ticks
+    // velocities are those at the middle of the ticks
     EXPECT_NEAR(flight.rise, v.z() * v.z() / (2 * 9.81) - v.z() * kTick / 2, 1e-5);
     EXPECT_LT(flight.off_path, 1e-12);
     EXPECT_TRUE(std::isnan(flight.slip));
@@ -111,7 +112,7 @@ TEST(Episodes, ABlockThatSlidesOnStopsByFriction) {
     EXPECT_TRUE(found[0].fingers.empty());
     EXPECT_NEAR(found[0].distance, 0.25 / (2 * kFriction * 9.81), 1e-3);
     EXPECT_NEAR(found[0].friction_ratio, 1, 1e-9);
-    // half the friction is expected, so the ratio is 2
+    // with half the friction as the expected value, the ratio is 2
     ObjectFacts smoother = facts();
     smoother.friction[0] /= 2;
     x = 0;
@@ -121,7 +122,7 @@ TEST(Episodes, ABlockThatSlidesOnStopsByFriction) {
 }
 
 TEST(Episodes, ABlockThatIsPushedTakesMuMG) {
-    // downhill, with a force that also presses on the block
+    // pushed downhill by a force that also presses on the block
     const double slope = 0.4;
     const Vec3 n(std::sin(slope), 0, std::cos(slope));
     const Vec3 along(std::cos(slope), 0, -std::sin(slope));
@@ -165,7 +166,7 @@ TEST(Episodes, AHoldTurnsWithItsFingersAndSinks) {
     EXPECT_NEAR(found[0].hand_turn, 0.5, 1e-9);
     EXPECT_NEAR(found[0].turn, 0.6, 1e-9);
     EXPECT_NEAR(found[0].sag, -0.002, 1e-12);
-    // each finger's arm, 2 cm long, was turned by the difference; and the object sank
+    // the 2 cm arm of each finger was turned by the difference of the angles, and the object sank
     EXPECT_NEAR(found[0].slip, std::hypot(2 * 0.02 * std::sin(0.05), 0.002), 1e-9);
 }
 
@@ -173,13 +174,13 @@ TEST(Episodes, AHandOverIsAHoldOfEachHandAndOneOfBoth) {
     const auto found = episodes_of(900, [](int i, frame::Frame& frame) {
         const bool first = i < 600;
         const bool second = i >= 300;
-        // lets go for a moment too short to count
+        // a finger lets go for a moment that is too short to count
         const bool flicker = i >= 100 && i < 105;
         if (first && !flicker) press(frame, 2);
         if (first) press(frame, 3);
         if (second) press(frame, 4);
         if (second) press(frame, 5);
-        // the first hand slips up as it lets go
+        // the first hand slips upward as it lets go
         if (i >= 500) frame.fingers[0].p_WP.z() += 1e-5 * (i - 500);
     });
     ASSERT_EQ(found.size(), 3u);

@@ -1,4 +1,5 @@
-// Tests grip-lifts on signals whose events are known: ramps of half a cosine.
+// Tests the analysis of grip-lifts, using signals with known events: ramps in the form of half a
+// cosine.
 #include "analysis/lifts.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,7 @@ TEST(SavitzkyGolay, HasTheDerivativesOfACubicToItsEnds) {
               std::vector<double>(10, 0.0));
 }
 
-/// A ramp from 0 to 1 between two times.
+/// A ramp that rises from 0 to 1 between two times.
 double ramp(double t, double from, double to) {
     if (t <= from) return 0;
     if (t >= to) return 1;
@@ -42,15 +43,15 @@ double ramp(double t, double from, double to) {
 struct Plan {
     double touch = 0.5, onset = 0.6, lift_off = 0.9, lower = 3, replaced = 3.5, let_go = 3.8;
     double grip = 4, weight = 4, height = 0.05;
-    double noise = 0;       // SD of the noise of each digit's forces [N]
-    double lag = 0;         // lag of grip after load [s]
-    double slides_at = -1;  // when digits slide, for 20 ms at 50 mm/s [s]
-    double rise = 0.4;      // duration of the rise [s]
-    double pauses_at = -1;  // when the session pauses; the grip is then three times as large [s]
-    double unknown = 0;     // until then ticks are missing, and the object's place is unknown [s]
-    bool stands = false;    // contacts with the support are seen
+    double noise = 0;       // SD of the noise in each digit's forces [N]
+    double lag = 0;         // lag of grip behind load [s]
+    double slides_at = -1;  // start of a slide of 20 ms at 50 mm/s [s]; negative: no slide
+    double rise = 0.4;      // duration of the upward movement [s]
+    double pauses_at = -1;  // start of a pause, which triples the grip [s]; negative: none
+    double unknown = 0;     // end of the missing ticks, when the object becomes known [s]
+    bool stands = false;    // whether contacts with the support are recorded
     bool falls = false;
-    bool slides_out = false;  // the object sinks while the digits stay up
+    bool slides_out = false;  // whether the object sinks while the digits stay up
 };
 
 constexpr int kSamples = 4500;
@@ -66,7 +67,7 @@ void add_lift(GraspTrace& trace, const Plan& plan, uint64_t seed = 1) {
         frame.time = (before + i) * std::chrono::milliseconds(1);
         frame.bodies.resize(2);
         frame.fingers.resize(2);
-        // grip and load rise to their ends together while loading
+        // grip and load reach their final values together at the end of loading
         const double down = ramp(t, plan.replaced, plan.let_go);
         const double grip = (0.25 * ramp(t, plan.touch, plan.onset + plan.lag) +
                              0.75 * ramp(t, plan.onset + plan.lag, plan.lift_off + plan.lag)) *
@@ -110,7 +111,7 @@ void add_lift(GraspTrace& trace, const Plan& plan, uint64_t seed = 1) {
             contact.b = 2 + f;
             contact.n_W = {side, 0, 0};
             contact.normal_force = n;
-            // force on the finger: the object pulls it down
+            // force on the finger, which the object pulls down
             contact.f_B_W = {side * n, 0, -load / 2 + plan.noise * random.normal()};
         }
         trace.add(frame);
@@ -128,7 +129,7 @@ TEST(Lifts, EventsAndForcesAreThoseOfTheSignals) {
     const Plan plan;
     const rows::LiftRow lift = lift_of(plan);
     EXPECT_EQ(lift.mark, "complete");
-    // rates are smoothed over 62 ms, so that an onset is found early, by up to half of that time
+    // rates are smoothed over 62 ms, so onsets are found up to half of that time too early
     EXPECT_NEAR(lift.touch, plan.touch, 0.032);
     EXPECT_NEAR(lift.load_onset, plan.onset, 0.032);
     EXPECT_NEAR(lift.preload, 0.1, 0.032);
@@ -142,7 +143,7 @@ TEST(Lifts, EventsAndForcesAreThoseOfTheSignals) {
     EXPECT_NEAR(lift.safety_margin, 1 - 1 / (2 * kFriction), 1e-9);
     EXPECT_NEAR(lift.peak_grip, 4, 1e-6);
     EXPECT_NEAR(lift.peak_load, 4, 1e-6);
-    // the largest rate of half a cosine is pi / 2 times its mean rate
+    // the largest rate of a half-cosine ramp is pi / 2 times its mean rate
     EXPECT_NEAR(lift.peak_load_rate, std::numbers::pi / 2 * 4 / 0.3, 0.5);
     EXPECT_NEAR(lift.peak_grip_rate, std::numbers::pi / 2 * 3 / 0.3, 0.5);
     EXPECT_NEAR(lift.height, 0.05, 1e-9);
@@ -154,7 +155,7 @@ TEST(Lifts, EventsAndForcesAreThoseOfTheSignals) {
 TEST(Lifts, GripIsSeenToFollowLoad) {
     Plan plan;
     const rows::LiftRow together = lift_of(plan);
-    // the grip's first rise, in the preload, reaches into the loading's first 31 ms
+    // the grip's first rise, during the preload, extends into the first 31 ms of loading
     EXPECT_GT(together.grip_load_r, 0.88);
     EXPECT_NEAR(together.grip_load_lag, 0, 0.015);
     EXPECT_NEAR(together.slope, 0.75, 0.03);
@@ -207,7 +208,7 @@ TEST(Lifts, OfOneTraceAreParted) {
     other.lift_off = 1.2;
     other.weight = 3;
     add_lift(trace, other);
-    Plan low = plan;  // pressed, but not lifted
+    Plan low = plan;  // the object is pressed but not lifted
     low.height = 0.005;
     add_lift(trace, low);
     const std::vector<Range> parts = lifts_in(trace, kGravity);
@@ -266,7 +267,7 @@ TEST(Lifts, WithNothingAfterThemAreNoMore) {
 TEST(Lifts, ASlowOneLeavesItsSupportBeforeItIsFast) {
     Plan plan;
     plan.height = 0.012;
-    plan.rise = 1.9;  // 1 cm/s at most
+    plan.rise = 1.9;  // no faster than 1 cm/s
     plan.lift_off = 0.9;
     plan.stands = true;
     EXPECT_NEAR(lift_of(plan).lift_off, plan.lift_off, 0.01);

@@ -1,4 +1,5 @@
-// Tests the measures of behaviour against closed forms, and their page in docs against their table.
+// Tests the measures of behaviour against closed forms, and checks that their page in docs matches
+// the table in the code.
 #include "analysis/measures/measures.h"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ namespace {
 
 constexpr const char* kPage = "docs/measures-of-behaviour.md";
 
-/// Time after its beginning at which the minimum-jerk speed rises through 5 cm/s.
+/// Time from the beginning of the movement at which the minimum-jerk speed rises through 5 cm/s.
 double rise() {
     double low = 0;
     double high = 0.25;
@@ -38,19 +39,19 @@ TEST(Measures, OfAMinimumJerkReachAreItsClosedForms) {
     const double before = 0.1 * (10 * std::pow(u, 3) - 15 * std::pow(u, 4) + 6 * std::pow(u, 5));
     EXPECT_NEAR(reach.value("path_length"), 0.1 - 2 * before, 2 * kTick * 0.05);
     EXPECT_NEAR(reach.value("lateral_deviation"), 0, 1e-15);
-    EXPECT_LT(reach.value("end_point_error", 1), 0);  // the last slow part is missing
+    EXPECT_LT(reach.value("end_point_error", 1), 0);  // the last, slow part is not included
     EXPECT_NEAR(reach.value("end_point_error"), -reach.value("end_point_error", 1), 1e-15);
     EXPECT_NEAR(reach.value("initial_direction"), 0, 1e-12);
     EXPECT_TRUE(reach.take("movement_time").why.empty());
 }
 
 TEST(Measures, OfAnObliqueReachHaveTheirSign) {
-    const Reach reach(0.02);  // to the left of the line
+    const Reach reach(0.02);  // a reach to the left of the line
     EXPECT_NEAR(reach.value("initial_direction"), std::atan(0.2), 1e-9);
     EXPECT_NEAR(reach.value("lateral_deviation"), 0.02, 1e-3);
     EXPECT_NEAR(reach.value("lateral_deviation", 1), 0.01, 1e-5);
     EXPECT_NEAR(reach.value("lateral_deviation", 2), 0.1 * 0.02 / 2 * 1e6,
-                30);  // a triangle [mm^2]
+                30);  // area of a triangle [mm^2]
     EXPECT_NEAR(reach.value("end_point_error", 2), 0.02, 1e-3);
     EXPECT_LT(Reach(-0.02).value("lateral_deviation"), -0.019);
 }
@@ -60,10 +61,10 @@ TEST(Measures, OfForceInAChannelAreTheSharesThatThePersonPressesWith) {
     EXPECT_EQ(reach.take("channel_force").why, "no channel");
     EXPECT_TRUE(std::isnan(reach.value("adaptation_index")));
     reach.attempt.plan.field_share = -1;
-    EXPECT_EQ(reach.value("adaptation_index", 4), -1);  // without a channel, a field acted
+    EXPECT_EQ(reach.value("adaptation_index", 4), -1);  // a field acted, without a channel
     reach.attempt.plan.channel = 1;
     reach.attempt.plan.field_share = kUnmeasured;
-    // the field pushes with 15 v to the left; the hand presses 0.6 of that to the right, and leans
+    // the field pushes left with 15 v; the hand presses right with 0.6 of that, and leans
     EXPECT_NEAR(reach.value("adaptation_index", 1), 0.6, 1e-12);
     EXPECT_NEAR(reach.value("adaptation_index", 2), 0.2, 1e-12);
     EXPECT_NEAR(reach.value("adaptation_index", 3), 1, 1e-12);
@@ -77,13 +78,13 @@ TEST(Measures, OfForceInAChannelAreTheSharesThatThePersonPressesWith) {
 }
 
 TEST(Measures, AMovementGoesOnAfterAPauseThatIsShorterThanItsEnd) {
-    Reach reach;  // another stroke follows 0.2 s after the end of the first
+    Reach reach;  // a second stroke follows 0.2 s after the end of the first one
     for (size_t i = 2000; i < 2100; ++i) reach.attempt.samples[i].v_W = {0.06, 0, 0};
     const double first = reach.value("movement_time");
     EXPECT_LT(first, 0.5);
     reach.options.end_still = 0.15;
     EXPECT_EQ(reach.value("movement_time"), first);
-    reach.options.end_still = 0.3;  // the states end 0.1 s after this stroke
+    reach.options.end_still = 0.3;  // the states end 0.1 s after the second stroke
     EXPECT_EQ(reach.take("movement_time").why, "the movement was not over when its states ended");
     reach.attempt.samples.resize(2100);
     for (int i = 2100; i < 2500; ++i) {
@@ -98,7 +99,7 @@ TEST(Measures, SayWhyTheyAreMissing) {
     for (MotionSample& s : slow.attempt.samples) s.v_W *= 0.1;
     EXPECT_EQ(slow.take("reaction_time").why, "no movement");
     EXPECT_TRUE(std::isnan(slow.value("path_length")));
-    const Reach cut(0, 0.55);  // its states end at the peak
+    const Reach cut(0, 0.55);  // the states of the movement end at the peak
     EXPECT_EQ(cut.take("movement_time").why, "the movement was not over when its states ended");
     EXPECT_NEAR(cut.value("reaction_time"), 0.3 + rise(), kTick);
     EXPECT_EQ(cut.take("initial_direction").why, "");
@@ -122,7 +123,8 @@ TEST(Measures, SayWhyTheyAreMissing) {
     EXPECT_EQ(gap.take("grip_latency").why, "no load step");
 }
 
-/// A reach whose hand is pushed aside, and swings back beyond the line, by these distances [m].
+/// A reach in which the hand is pushed aside, and then swings back beyond the line, by these
+/// distances [m].
 Reach pushed_aside(double aside, double back) {
     Reach reach;
     for (MotionSample& s : reach.attempt.samples) {
@@ -139,23 +141,23 @@ TEST(Measures, LateralDeviationIsThatOfTheFirstStrokeWhateverTheSwingBack) {
     EXPECT_NEAR(reach.value("largest_lateral_deviation"), 0.05, 1e-5);
     EXPECT_NEAR(reach.value("early_lateral_deviation"),
                 -0.02 * std::sin(2 * std::numbers::pi * (rise() + 0.15) / 0.5), 3e-4);
-    // shaking by less than 2 mm beforehand is not a turn
+    // shaking by less than 2 mm before the push does not count as a reversal
     Reach shaking = pushed_aside(0.02, 0.02);
     for (MotionSample& s : shaking.attempt.samples) s.p_W.y() -= 9e-4 * std::sin(300 * s.time);
     EXPECT_NEAR(shaking.value("lateral_deviation"), 0.02, 1.1e-3);
 }
 
 TEST(Measures, PeakSpeedIsThatOfTheFirstStrokeThoughACorrectionIsFaster) {
-    Reach reach;  // a correction at 0.6 m/s follows 0.2 s later
+    Reach reach;  // a correction with a speed of 0.6 m/s follows 0.2 s later
     for (size_t i = 2000; i < 2100; ++i) reach.attempt.samples[i].v_W = {0.6, 0, 0};
     EXPECT_NEAR(reach.value("peak_speed"), 0.375, 1e-12);
     EXPECT_NEAR(reach.value("reaction_time"), 0.3 + rise(), kTick);
-    // peak speed is still that of the reach if the hand twitches by 2 mm beforehand
+    // the peak speed is still that of the reach if the hand twitches by 2 mm before it
     Reach twitching;
     for (size_t i = 1100; i < 1120; ++i) twitching.attempt.samples[i].v_W = {0.2, 0, 0};
     EXPECT_NEAR(twitching.value("peak_speed"), 0.375, 1e-12);
     EXPECT_NEAR(twitching.value("reaction_time"), 0.3 + rise(), kTick);
-    // nor does it change if the hand is still returning from the last reach when the state begins
+    // nor does the peak speed change if the hand is still returning when the state begins
     Reach coming;
     for (size_t i = 1000; i < 1100; ++i)
         coming.attempt.samples[i].v_W = {-0.3 * (1 - (static_cast<double>(i) - 1000) / 100), 0, 0};
@@ -164,7 +166,7 @@ TEST(Measures, PeakSpeedIsThatOfTheFirstStrokeThoughACorrectionIsFaster) {
 }
 
 TEST(Measures, AreLeftOutWhereTheyWouldBeNonsense) {
-    // walls that catch a hand off their line throw it onto the line, faster than it then reaches
+    // walls that catch a hand beside its line throw it onto the line faster than it then reaches
     Reach thrown;
     thrown.attempt.plan.channel = 1;
     thrown.attempt.plan.field_share = kUnmeasured;
@@ -209,18 +211,18 @@ TEST(Measures, GripLatencyIsFromTheStepToTheAnswer) {
     for (size_t i = 0; i < held.attempt.samples.size(); ++i) {
         MotionSample& s = held.attempt.samples[i];
         if (i < 1000) s.grip += i % 2 == 0 ? 0.01 : -0.01;
-        if (i >= 1030 && i < 1035) s.grip = 3;  // too short for a response
+        if (i >= 1030 && i < 1035) s.grip = 3;  // too short to count as a response
         if (i >= 1080) s.grip = 2.005 + 0.01 * static_cast<double>(i - 1080);
     }
-    // 0.05 N above the mean after five ticks
+    // 0.05 N above the mean, reached after five ticks
     EXPECT_NEAR(held.value("grip_latency"), 0.085, kTick / 2);
     for (size_t i = 1085; i < held.attempt.samples.size(); ++i) held.attempt.samples[i].phase = 3;
-    EXPECT_EQ(held.take("grip_latency").why, "grip did not respond");  // the next state grips
+    EXPECT_EQ(held.take("grip_latency").why, "grip did not respond");  // grip rises too late
 }
 
 TEST(Measures, SpectralArcLengthIsThatOfItsAuthors) {
-    // values from the authors' Python code (siva82kb/SPARC), for one bell and for two, of one
-    // second each
+    // values computed with the authors' Python code (siva82kb/SPARC), for one and for two
+    // bell-shaped profiles that last one second each
     std::vector<double> bell, two;
     for (int i = 0; i < 1000; ++i) {
         const double t = i * kTick;
@@ -232,7 +234,7 @@ TEST(Measures, SpectralArcLengthIsThatOfItsAuthors) {
     EXPECT_TRUE(std::isnan(spectral_arc_length({}, kTick)));
 }
 
-/// A session's folder whose task takes measures of a reach.
+/// Folder of a session with a task that computes measures of a reach.
 struct Session {
     testing::TemporaryFolder folder;
     recording::LogHead head;
@@ -273,7 +275,7 @@ TEST(Measures, AreTakenFromTheFramesOfEachAttempt) {
         ++frame.sequence;
     }
     finder->end_attempt(nullptr);
-    finder->end_attempt(nullptr);  // between trials
+    finder->end_attempt(nullptr);  // called between trials
     Table trials{{{"trial_num", ""}, {"attempt", ""}}, {{1.0, 1.0}, {1.0, 2.0}}};
     finder->add_to(trials);
     ASSERT_EQ(trials.columns.size(), 2u + 1 + 1 + 3 + 1);
@@ -313,7 +315,7 @@ std::string measure_table() {
     return out;
 }
 
-/// The text before the table is written by hand.
+/// The text before the table on the page is written by hand.
 TEST(Measures, PageHasTheTable) {
     const std::string page = testing::read_file(kPage);
     const std::string title = "\n## Table\n";

@@ -1,4 +1,5 @@
-// Reaches for tests of measures: a closed form, and the same reach spoilt in random ways.
+// Reaches for testing the measures: a closed-form reach, and variants of it that are spoilt in
+// random ways.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,13 +17,15 @@ namespace dihaptic::analysis::measures_test {
 
 inline constexpr double kTick = 1e-3;
 
-/// A reach along x by minimum jerk, 0.1 m in 0.5 s, which begins 0.3 s after the go signal: still
-/// for a second before, in phase 1, and until the end of phase 2.
+/// A minimum-jerk reach along x, 0.1 m in 0.5 s, which begins 0.3 s after the go signal. The hand
+/// is still in phase 1, for a second before the go signal, and after the reach until the end of
+/// phase 2.
 struct Reach {
     Attempt attempt;
     task::Movement options;
     MeasurePhases phases{{2}, 2, -1};
-    double bow = 0;  ///< lateral displacement at the end [m], in proportion to the way before
+    double bow = 0;  ///< lateral displacement at the end [m]; before that, proportional to the
+                     ///< distance covered
 
     explicit Reach(double lateral = 0, double last = 1.2) : bow(lateral) {
         attempt.plan.to_W = {0.1, 0, 0};
@@ -48,8 +51,8 @@ struct Reach {
     double value(const char* name, size_t column = 0) const { return take(name).values[column]; }
 };
 
-/// A reach with a random pathology, or none: a swing back, a jump at onset, no movement, half a
-/// reach, a hand that has to wait at a wall, the wrong direction, noise, a slow start.
+/// Returns a reach with a random pathology, or none: a swing back, a jump at onset, no movement,
+/// half a reach, a hand that has to wait at a wall, the wrong direction, noise, or a slow start.
 inline Reach spoilt(std::mt19937& random) {
     std::uniform_real_distribution<double> unit(0, 1);
     const auto chance = [&](double share) { return unit(random) < share; };
@@ -80,8 +83,8 @@ inline Reach spoilt(std::mt19937& random) {
     return reach;
 }
 
-/// Expects that every measure of `count` spoilt reaches is within its plausible range, or has a
-/// reason why it is missing.
+/// Expects that every measure of `count` spoilt reaches either is within its plausible range or is
+/// missing with a reason.
 inline void expect_sense_of_spoilt(int count) {
     std::mt19937 random(1);
     int measured = 0;

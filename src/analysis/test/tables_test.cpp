@@ -1,4 +1,5 @@
-// Tests that docs/tables.md describes the columns of a session's tables as the code does.
+// Tests that docs/tables.md describes the columns of a session's tables in the same way as the
+// code.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +22,7 @@ namespace {
 constexpr const char* kFile = "docs/tables.md";
 using Columns = std::vector<Table::Column>;
 
-/// A session with something for each table.
+/// Makes a session that contains something for each table.
 SessionData session_in(const testing::TemporaryFolder& folder) {
     folder.write("session.yaml", "");
     AdaptationCurve curve;
@@ -84,7 +85,7 @@ std::string tables() {
                  people.measures.columns);
 }
 
-/// The text before the tables is written by hand.
+/// The text before the tables on the page is written by hand.
 TEST(Tables, AreTheReferences) {
     const std::string page = testing::read_file(kFile);
     const std::string made = page.substr(0, page.find("\n## ")) + tables();

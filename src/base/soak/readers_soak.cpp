@@ -1,5 +1,6 @@
-// Reads large and damaged YAML: reading time is proportional to size, not to its square, and
-// each of ten thousand damaged files is read, or refused with a line number.
+// Reads large and damaged YAML files. The reading time must be proportional to the size rather than
+// its square, and each of ten thousand damaged files must be either read or refused with a line
+// number.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ std::string keys(int count) {
     return out;
 }
 
-/// The shortest of three reading times [s].
+/// Reads a text three times and returns the shortest time [s].
 double time_to_read(const std::string& text) {
     double shortest = 1e9;
     for (int i = 0; i < 3; ++i) {

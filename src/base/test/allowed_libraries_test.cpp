@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A user whose settings are in a folder of their own.
+/// A user whose settings are in a temporary folder.
 class AllowedLibraries : public ::testing::Test {
   protected:
     TemporaryFolder folder_;

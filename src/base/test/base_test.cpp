@@ -77,7 +77,7 @@ TEST(Ring, RefusesWhatDoesNotFitAndKeepsTheRest) {
     EXPECT_FALSE(ring.pop(out));
 }
 
-/// A ring that was full, e.g. of key presses, works as before once it has been emptied.
+/// After a ring has been full, e.g. of key presses, and has been emptied, it works as before.
 TEST(ValueRing, RefusesWhatDoesNotFitAndGoesOn) {
     ValueRing<char> ring(64);
     int held = 0;
@@ -134,7 +134,7 @@ TEST(Table, ACsvFileIsReadByTheNamesOfItsColumns) {
     EXPECT_EQ(csv.text(1, "c"), "");
     EXPECT_TRUE(csv.has("b"));
     EXPECT_FALSE(csv.has("c"));
-    EXPECT_THROW(CsvFile(folder.write("none.csv", "")), Error);  // not even a header
+    EXPECT_THROW(CsvFile(folder.write("none.csv", "")), Error);  // there is not even a header
     EXPECT_THROW(CsvFile(folder.file("nowhere.csv")), Error);
 }
 

@@ -1,5 +1,4 @@
-// Tests what children are given, and that the program waits for them. The shell serves as the
-// child.
+// Tests what children inherit, and that the program waits for them. A shell serves as the child.
 #include "base/child.h"
 
 #include <fcntl.h>
@@ -25,7 +24,7 @@ Launch shell(const std::string& script) {
     return {"sh", {"-c", script}, {kNothing, kNothing, kNothing}};
 }
 
-/// The shell's output; `files` are passed to it from file number 3 on.
+/// Returns the shell's output. `files` are passed to the shell with numbers from 3 onwards.
 std::string said(const std::string& script, const std::vector<int>& files = {}, short flags = 0) {
     const Descriptor out(memfd_create("said", MFD_CLOEXEC));
     Launch launch = shell(script);
@@ -68,7 +67,7 @@ TEST(Child, IsLookedAtWithoutWaitingAndDoesNotOutliveItsOwner) {
         process = child.process();
         EXPECT_EQ(kill(process, 0), 0);
     }
-    EXPECT_EQ(kill(process, 0), -1);  // not even a zombie is left
+    EXPECT_EQ(kill(process, 0), -1);  // the child has gone, without leaving even a zombie
     EXPECT_EQ(errno, ESRCH);
 }
 
@@ -76,7 +75,7 @@ TEST(Child, GetsTheFilesThatAreNamedAndNoOther) {
     const Descriptor memory(memfd_create("ours", MFD_CLOEXEC));
     ASSERT_EQ(write(memory.get(), "hello", 5), 5);
     ASSERT_EQ(lseek(memory.get(), 0, SEEK_SET), 0);
-    const Descriptor ours(fcntl(memory.get(), F_DUPFD, 20));  // not closed by exec()
+    const Descriptor ours(fcntl(memory.get(), F_DUPFD, 20));  // exec() does not close it
     const std::string number = number_text(ours.get());
     EXPECT_EQ(
         said("cat <&4; readlink /proc/$$/fd/3; [ -e /proc/$$/fd/" + number + " ] || echo no more",
@@ -100,8 +99,8 @@ TEST(Child, KeepsAFileWhoseNumberItShares) {
     EXPECT_EQ(pread(out.get(), text.data(), text.size(), 0), 5);
 }
 
-/// Whether a child of this process, started with these flags, has any of the first 16 signals
-/// blocked, or ignored. It is not a shell, which would change them itself.
+/// Whether a child of this process that was started with these flags blocks, or ignores, any of the
+/// first 16 signals. The child is not a shell, because a shell would change the signals itself.
 std::pair<bool, bool> blocks_or_ignores(short flags) {
     const Descriptor out(memfd_create("status", MFD_CLOEXEC));
     Launch launch{"cat", {"/proc/self/status"}, {kNothing, out.get(), kNothing}};

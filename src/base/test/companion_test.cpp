@@ -1,5 +1,5 @@
-// Tests of companions that crash, hang, exceed their limits or are missing. The shell stands in for
-// the companion, as it can do all of this on command.
+// Tests of companions that crash, hang, exceed their limits or are missing. A shell stands in for
+// the companion, because it can do all of this on command.
 #include "base/companion.h"
 #include "base/number.h"
 
@@ -96,7 +96,7 @@ TEST(Companion, EndsWhenItIsStoppedAndOnlyThen) {
     });
     EXPECT_EQ(failure(asleep), cancelled);
     later.join();
-    EXPECT_EQ(failure(asleep), cancelled);  // stopped before it began
+    EXPECT_EQ(failure(asleep), cancelled);  // stopped before it has started
 
     std::stop_source another;
     CompanionTask whole = task("sleep 0.1; echo whole");

@@ -1,4 +1,4 @@
-// Tests that a descriptor closes what it owns, once, and nothing else.
+// Tests that a descriptor closes the file that it owns, exactly once, and closes nothing else.
 #include "base/descriptor.h"
 
 #include <fcntl.h>
@@ -52,7 +52,7 @@ TEST(Descriptor, ClosesOnceAndLeavesErrnoAlone) {
     file.close();
     EXPECT_FALSE(file);
     const Descriptor next(opened());
-    EXPECT_EQ(next.get(), number);  // the kernel gives the lowest free number
+    EXPECT_EQ(next.get(), number);  // the kernel assigns the lowest free number
     file.close();
     EXPECT_TRUE(is_open(number));
 
@@ -60,7 +60,7 @@ TEST(Descriptor, ClosesOnceAndLeavesErrnoAlone) {
         const Descriptor wrong(opened());
         ASSERT_EQ(::close(wrong.get()), 0);
         errno = ENOSPC;
-    }  // closing it fails, with EBADF
+    }  // closing the descriptor fails with EBADF
     EXPECT_EQ(errno, ENOSPC);
 }
 

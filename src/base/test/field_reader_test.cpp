@@ -56,7 +56,7 @@ struct Read {
     explicit Read(const std::string& yaml) {
         read_fields(value, parse_yaml(yaml, "test.yaml"), diagnostics, &origins);
     }
-    /// The text of the only problem; fails the test unless there is exactly one.
+    /// The text of the only problem. The test fails unless there is exactly one.
     std::string problem() const {
         EXPECT_EQ(diagnostics.problems().size(), 1u);
         return diagnostics.problems().empty() ? "" : diagnostics.problems().front().text();
@@ -88,7 +88,7 @@ TEST(FieldReader, KeepsWhatTheFileDoesNotGive) {
 
 struct Bad {
     const char* yaml;
-    const char* says;  // a part of the message
+    const char* says;  // a part of the expected message
 };
 void PrintTo(const Bad& bad, std::ostream* out) {
     *out << bad.says;
@@ -172,7 +172,7 @@ TEST(FieldReader, AnOldNameIsReadWithAWarningAndWithoutOneInWhatWasFrozen) {
 
 TEST(FieldReader, ReportsAllProblemsOfAFile) {
     const Read in("cuont: 3\nfruit: plum\n");
-    EXPECT_EQ(in.diagnostics.problems().size(), 3u);  // the third: the name is missing
+    EXPECT_EQ(in.diagnostics.problems().size(), 3u);  // the third problem is the missing name
     EXPECT_THROW(in.diagnostics.throw_if_errors(), Error);
 }
 
@@ -258,7 +258,7 @@ TEST(Node, RefusesAKeyGivenTwice) {
     }
 }
 
-/// The message of parse_yaml() for a text that it refuses.
+/// The message with which parse_yaml() refuses a text.
 std::string refusal_of(const std::string& yaml) {
     try {
         parse_yaml(yaml, "far.yaml");
@@ -314,7 +314,7 @@ TEST(Node, RefusesASecondDocument) {
 }
 
 TEST(Node, RefusesAStrayComma) {
-    EXPECT_THROW(parse_yaml(",", "comma.yaml"), Error);  // reading this text once never ended
+    EXPECT_THROW(parse_yaml(",", "comma.yaml"), Error);  // reading this text used to run for ever
     EXPECT_THROW(parse_yaml("{ a: 1 }, { b: 2 }", "comma.yaml"), Error);
     EXPECT_EQ(parse_yaml("", "empty.yaml").kind, Node::Kind::null);
 }

@@ -1,4 +1,4 @@
-// Tests of the search for files that come with the program, or that a user keeps for all studies.
+// Tests the search for files that come with the program or that a user keeps for all studies.
 #include "base/installed.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(Installed, TheUsersOwnFolderComesBeforeWhatIsShippedAndWhatIsThereBeforeBot
     const std::string was = before == nullptr ? "" : before;
     setenv("XDG_DATA_HOME", folder.path().c_str(), 1);
     EXPECT_EQ(kept(name), own);
-    EXPECT_EQ(given_or_kept(name), name);  // tests run where the files are
+    EXPECT_EQ(given_or_kept(name), name);  // the files exist in the folder in which tests run
     EXPECT_EQ(given_or_kept("block-on-table.yaml"), "block-on-table.yaml");
     fs::rename(own, folder.path() + "/dihaptic/scenes/mine.yaml");
     EXPECT_EQ(given_or_kept("scenes/mine.yaml"), folder.path() + "/dihaptic/scenes/mine.yaml");

@@ -1,4 +1,4 @@
-// Tests that schemas follow from visit(): types, units, bounds, defaults, kinds.
+// Tests that schemas follow from visit(): types, units, bounds, defaults and kinds.
 #include "base/json_schema.h"
 
 #include <gtest/gtest.h>

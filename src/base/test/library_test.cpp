@@ -1,4 +1,4 @@
-// Tests of the messages when a manufacturer's library cannot be used.
+// Tests the messages that are given when a manufacturer's library cannot be used.
 #include "base/library.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(Library, ThatIsMissingIsToldWithAllNamesAndWhatToInstall) {
 
 TEST(Library, ThatNeedsAnotherIsToldWithThatOnesRemedy) {
     Library::Spec wanted = spec();
-    wanted.files = {"libacmeusb-1.so"};  // dlopen() names the file that it does not find
+    wanted.files = {"libacmeusb-1.so"};  // dlopen() states the name of the file that it cannot find
     EXPECT_NE(failure(wanted).find("Install the package acme-usb."), std::string::npos);
 }
 

@@ -1,4 +1,5 @@
-// Tests that written numbers are read back unchanged, and which words are not numbers.
+// Tests that written numbers are read back unchanged, and that other words are not taken for
+// numbers.
 #include "base/number.h"
 
 #include <gtest/gtest.h>

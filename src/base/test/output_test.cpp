@@ -1,5 +1,5 @@
-// Tests that output goes to its own file only, whatever already exists under the names that it
-// uses.
+// Tests that output goes only to its own file, whatever already exists under the names that are
+// used for it.
 #include "base/output.h"
 #include "base/number.h"
 

@@ -1,4 +1,4 @@
-// Tests the reported process at the other end of a socket.
+// Tests which process is reported to be at the other end of a socket.
 #include "base/peer.h"
 #include "base/number.h"
 

@@ -11,7 +11,7 @@
 namespace dihaptic::shell_word_test {
 namespace {
 
-/// A shell's reading of a word: bash, since sh does not support $'...'.
+/// Returns a word as bash reads it. The shell is bash because sh does not support $'...'.
 std::string by_bash(const std::string& word) {
     const std::string command = "bash -c " + shell_word("printf %s " + word);
     std::FILE* const pipe = popen(command.c_str(), "r");

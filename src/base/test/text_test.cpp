@@ -1,4 +1,4 @@
-// Tests that written text is read again unchanged.
+// Tests that text that was written is read back unchanged.
 #include "base/text.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(Text, RefusesControlCharacters) {
         EXPECT_EQ(find_fault(text).has_value(), !is_white) << code;
         EXPECT_TRUE(find_fault(text, Lines::one)) << code;
     }
-    // right-to-left override, isolate, line separator: they belong in pages, not in names
+    // right-to-left override, isolate and line separator are allowed in pages, but not in names
     for (const char* text : {"a\xe2\x80\xae"
                              "b",
                              "a\xe2\x81\xa7"
@@ -81,7 +81,7 @@ void append(std::string& text, unsigned code) {
     }
 }
 
-/// Words, and characters with a meaning in YAML, CSV or a shell, in any order.
+/// Returns words and characters that have a meaning in YAML, CSV or a shell, in random order.
 std::string random_text(std::mt19937& random) {
     const auto below = [&](unsigned n) { return static_cast<unsigned>(random()) % n; };
     std::string out;

@@ -1,4 +1,4 @@
-// Tests that sockets meet at their addresses, and that no other program inherits them.
+// Tests that sockets connect at their addresses, and that no other program inherits them.
 #include "base/unix_socket.h"
 
 #include <fcntl.h>
@@ -14,7 +14,8 @@
 namespace dihaptic::unix_socket_test {
 namespace {
 
-/// Expects that a socket connects to one that listens at this address, and receives from it.
+/// Expects that a socket can connect to one that listens at this address, and can receive data from
+/// it.
 void expect_meeting(const UnixAddress& address) {
     const Descriptor early = unix_socket(SOCK_STREAM);
     EXPECT_FALSE(address.connect(early));

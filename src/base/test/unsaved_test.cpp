@@ -1,4 +1,5 @@
-// Tests that an unsaved text replaces a file's, in its thread and during its lifetime.
+// Tests that an unsaved text replaces a file's text, but only in its own thread and during its
+// lifetime.
 #include "base/unsaved.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tests where the parts of a YAML text are found.
+// Tests at which positions the parts of a YAML text are found.
 #include "base/written.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,8 @@
 namespace dihaptic::written_test {
 namespace {
 
-/// Counts the plain texts of a part, each of which must be at its stated position.
+/// Counts the plain scalars in a part of a text. Each of them must be at the position stated for
+/// it.
 int count_plain(const Written& part, const std::string& text) {
     int out = 0;
     for (const Written& item : part.items) out += count_plain(item, text);

@@ -1,11 +1,11 @@
-// Semismooth Newton's method on a contact law (law.h), inside a proximal loop: each proximal step
-// makes a singular problem regular, and at convergence (r = r_k) the regularisation has no effect
-// on the answer.
+// Semismooth Newton's method applied to a contact law (law.h), inside a proximal loop: each
+// proximal step makes a singular problem regular, and at convergence (r = r_k) the regularisation
+// has no effect on the answer.
 //
-// At first, steps are full, the regularisation follows the residual, and a proximal step ends
+// At first, full steps are taken, the regularisation follows the residual, and a proximal step ends
 // when its equation's error has fallen to a fifth. A proximal step that does not converge is
 // undone, a few projected Gauss-Seidel sweeps provide a new iterate, and the regularisation grows
-// tenfold. If this takes too long, the method starts again elsewhere.
+// tenfold. If this takes too long, the method restarts from a different point.
 #pragma once
 
 #include <array>
@@ -21,29 +21,29 @@ namespace dihaptic::contact {
 /// How an iterative solve ended.
 struct Outcome {
     int iterations = 0;
-    double residual = std::numeric_limits<double>::infinity();  ///< as compared with the tolerance
+    double residual = std::numeric_limits<double>::infinity();  ///< measured like the tolerance
     bool converged = false;
 };
 
-/// Relative residual of a law (its natural map), in two measures: in the units of the given
-/// problem, and in those of the scaled system, which are independent of the choice of units.
+/// Relative residual of a contact law (the norm of its natural map), both in the units of the given
+/// problem and in those of the scaled system, which do not depend on the choice of units.
 struct Residual {
     double scaled = std::numeric_limits<double>::infinity();  ///< over |q^|
-    double given = std::numeric_limits<double>::infinity();   ///< over 1 + |q|
+    double given = std::numeric_limits<double>::infinity();   ///< divided by 1 + |q|
 
-    /// The value to which tolerances apply: the given problem's residual or, if larger, a hundredth
-    /// of the scaled one, so that small units do not make the test easier. The whole scaled value
-    /// would be too strict: with very small loads, the rounding in the gaps of four coplanar
-    /// contacts may contribute more.
+    /// The value that is compared with tolerances: the given problem's residual or, if larger, a
+    /// hundredth of the scaled one, so that small units do not make the test easier. The whole
+    /// scaled value would be too strict: with very small loads, the rounding in the gaps of four
+    /// coplanar contacts may contribute more.
     double judged() const noexcept { return std::max(given, 0.01 * scaled); }
 };
 
-/// The reference quantities of relative residuals.
+/// The reference quantities that make residuals relative.
 struct Load {
     double scaled = 0;  ///< |q^|
     double given = 0;   ///< |q|
 
-    /// The residual from squared norms.
+    /// Returns the relative residual, given the squared norms.
     Residual residual(double scaled_squared, double given_squared) const noexcept {
         return {std::sqrt(scaled_squared) / (scaled > 0 ? scaled : 1),
                 std::sqrt(given_squared) / (1 + given)};
@@ -76,35 +76,35 @@ Load load(const System& system) noexcept {
     return {std::sqrt(out.scaled), std::sqrt(out.given)};
 }
 
-/// Iterations aim for this fraction of the tolerance, so that answers which only just meet it are
-/// rare.
+/// Iterations aim for this fraction of the tolerance, so that answers that barely meet the
+/// tolerance are rare.
 constexpr double kTarget = 1e-2;
-/// Once within tolerance, iterations end when kStalledIterations of them have failed to reduce the
+/// Once within tolerance, iterations end when the last kStalledIterations have failed to reduce the
 /// best residual to the fraction kStalledShare: rounding then prevents further progress.
 constexpr double kStalledShare = 0.5;
 constexpr int kStalledIterations = 2;
 
-/// Parameters of the proximal loop.
+/// Parameters of one start of the proximal loop.
 struct NewtonStart {
     enum class From { given, zero, best, scattered } from;
     double rho;
     int most_steps;
-    int trial_steps;  ///< steps after which a proximal step is abandoned if its error has grown
-    int most_inner;   ///< steps after which it is abandoned if the error is not small
+    int trial_steps;  ///< a proximal step is abandoned after this many steps if its error has grown
+    int most_inner;   ///< a proximal step is abandoned after this many steps if its error is large
     /// Whether the next rho is proportional to the residual, as in Levenberg and Marquardt's
-    /// method; otherwise rho is divided by ten after proximal steps that took few Newton steps.
+    /// method; otherwise rho is divided by ten after each proximal step that took few Newton steps.
     bool rho_follows;
-    int halvings;  ///< maximum number for a Newton step that makes the error grow fourfold
-    int sweeps;    ///< initial sweeps, which find most sliding contacts
-    /// Number of proximal steps for which rho stays ten times as large as a value that failed. With
-    /// 0, it can fall to that value at once, and fail again. A jammed object whose loads are not
-    /// determined needs many proximal steps, each of which is easy while rho is large enough.
+    int halvings;  ///< largest number of halvings for a step that makes the error grow fourfold
+    int sweeps;    ///< number of initial sweeps, which identify most of the sliding contacts
+    /// Number of proximal steps for which rho stays ten times as large as a value that failed. If
+    /// 0, rho may return to that value at once and fail again. A jammed object with undetermined
+    /// loads needs many proximal steps, each of which is easy while rho is large enough.
     int caution = 0;
 };
-/// The starts: two that are quick, and four with caution, which solve 99 of 100 problems that the
-/// quick ones do not solve. Caution was chosen on bodies thrown together with a seed other than
-/// those of the soaks; the choice hardly matters between 6 and 20 steps before a proximal step is
-/// abandoned, and between 10 and 40 for caution.
+/// The starts: two quick ones, then four with caution, which solve 99 of 100 problems that the
+/// quick ones cannot. The parameters were tuned on bodies thrown together with a different seed
+/// from those of the soak tests; results hardly depend on them between 6 and 20 steps before a
+/// proximal step is abandoned, and between 10 and 40 for caution.
 constexpr auto kNewtonStarts = [] {
     using From = NewtonStart::From;
     return std::array<NewtonStart, 6>{{
@@ -117,11 +117,12 @@ constexpr auto kNewtonStarts = [] {
     }};
 }();
 
-/// Limit of contacts times steps over all starts: a jammed heap must not delay the tick for long.
+/// Upper limit on contacts times steps, summed over all starts, so that a jammed heap cannot delay
+/// the tick for long.
 constexpr size_t kMostNewtonWork = 32000;
 
-/// The working state of proximal_newton(): r is the current point, memory.r_k the start of the
-/// proximal step.
+/// The working state of proximal_newton(): r is the current point, and memory.r_k is the point
+/// where the proximal step started.
 template <class System, class Law, class Measure>
 class ProximalNewton {
   public:
@@ -156,23 +157,23 @@ class ProximalNewton {
     }
 
   private:
-    static constexpr double kSafe = 0.1;  // share of the tolerance that suffices after a start
+    static constexpr double kSafe = 0.1;  // a later start ends at this fraction of the tolerance
     static constexpr double kLeastRho = 1e-7;
     static constexpr double kMostRho = 1.0;
     static constexpr double kRhoOfResidual = 0.3;
-    static constexpr double kReduced = 0.05;  // of the squared error
+    static constexpr double kReduced = 0.05;  // applies to the squared error
     static constexpr double kReducedMuch = 1e-4;
     static constexpr double kGrown = 4;
     static constexpr int kFewSteps = 4;
     static constexpr int kRescueSweeps = 5;
     static constexpr double kScatter = 0.3;  // of |q|
 
-    /// Whether the limits of iterations and of work allow another step.
+    /// Whether the limits on iterations and work allow another step.
     bool may_step() const {
         return out_.iterations < most_iterations_ && system_.work().affords(system_.step_visits());
     }
 
-    /// Keeps r if it is the best so far. Returns whether it is good enough.
+    /// Stores r if it is the best so far. Returns whether it is good enough.
     bool judge() {
         system_.work().spend(Law::kVisits * static_cast<int64_t>(r_.size()));
         system_.velocity(r_, memory_.u);
@@ -187,7 +188,7 @@ class ProximalNewton {
         return out_.converged;
     }
 
-    /// Sets r to the initial point of a start. Returns whether that is good enough.
+    /// Sets r to the initial point for a start. Returns whether that point is good enough.
     bool begin(const NewtonStart& start) {
         if (start.from == NewtonStart::From::zero) {
             for (Vec& impulse : r_) impulse.setZero();
@@ -205,8 +206,8 @@ class ProximalNewton {
         return judge();
     }
 
-    /// Takes Newton steps, proximal step after proximal step, until r is good enough or the steps
-    /// run out.
+    /// Takes Newton steps, one proximal step after another, until r is good enough or no steps are
+    /// left.
     void take_steps(const NewtonStart& start) {
         rho_ = start.rho;
         least_rho_ = kLeastRho;
@@ -231,7 +232,7 @@ class ProximalNewton {
         inner_ = 0;
     }
 
-    /// Linearises the law; returns the squared error of the proximal step's equation.
+    /// Linearises the law. Returns the squared error in the equation of the proximal step.
     double linearise() {
         double error = 0;
         for (size_t j = 0; j < r_.size(); ++j) {
@@ -241,14 +242,14 @@ class ProximalNewton {
         return error;
     }
 
-    /// Moves by a fraction of the Newton step. Returns whether r is good enough.
+    /// Moves r by a fraction of the Newton step. Returns whether r is good enough.
     bool move(double share) {
         for (size_t j = 0; j < r_.size(); ++j) r_[j] += share * memory_.d[j];
         ++out_.iterations;
         return judge();
     }
 
-    /// Halves a step that made the error grow. Returns whether r is good enough.
+    /// Repeatedly halves a step that made the error grow. Returns whether r is good enough.
     bool shorten(int halvings) {
         const double before = error_;
         error_ = linearise();
@@ -275,7 +276,7 @@ class ProximalNewton {
                (inner_ >= start.trial_steps && error_ > kGrown * first_) || !std::isfinite(error_);
     }
 
-    /// Undoes the proximal step and continues by sweeps. Returns whether r is good enough.
+    /// Undoes the proximal step and continues with sweeps. Returns whether r is good enough.
     bool undo(const NewtonStart& start) {
         std::copy(memory_.r_k.begin(), memory_.r_k.end(), r_.begin());
         system_.sweep(law_, r_, kRescueSweeps);
@@ -284,7 +285,7 @@ class ProximalNewton {
         return judge();
     }
 
-    /// Allows no smaller rho until the start's caution ends.
+    /// Sets a lower limit for rho that applies until the start's caution ends.
     void allow(double rho) {
         least_rho_ = std::max(rho, kLeastRho);
         succeeded_ = 0;
@@ -297,22 +298,23 @@ class ProximalNewton {
     NewtonMemory<System>& memory_;
     const Measure& measure_;
     int most_iterations_;
-    std::minstd_rand random_;  // the same numbers in every solve, for replay
+    std::minstd_rand random_;  // produces the same numbers in every solve, for replay
 
     Outcome out_;
-    double residual_ = 0;   // of r
-    bool is_best_ = false;  // whether r is the best so far, with memory.u as its velocity
+    double residual_ = 0;   // residual of r
+    bool is_best_ = false;  // whether r is the best so far, and memory.u is its velocity
     int stalled_ = 0;
     double rho_ = 0;
     double least_rho_ = kLeastRho;
-    int succeeded_ = 0;  // proximal steps since least_rho_ changed
+    int succeeded_ = 0;  // number of proximal steps since least_rho_ changed
     double first_ = 0;   // squared error at the start of the proximal step
-    double error_ = 0;   // squared error now
-    int inner_ = 0;      // Newton steps in the proximal step
+    double error_ = 0;   // current squared error
+    int inner_ = 0;      // number of Newton steps in the current proximal step
 };
 
 /// Solves `law` for r [scaled], starting from r, until `measure(r, u)` is at most kTarget of
-/// `tolerance` or all `starts` are used up. Leaves the best r found, and its velocity in memory.u.
+/// `tolerance` or all `starts` are used up. On return, r is the best point found and memory.u is
+/// its velocity.
 template <class System, class Law, class Measure>
 Outcome proximal_newton(System& system, const Law& law, std::span<typename System::Vec> r,
                         double tolerance, NewtonMemory<System>& memory, const Measure& measure,
@@ -323,8 +325,8 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
         .solve(starts);
 }
 
-/// Residual of Coulomb's law. If the given problem's residual is above `enough`, the scaled one is
-/// not computed, but left at zero.
+/// Residual of Coulomb's law. If the residual of the given problem exceeds `enough`, the scaled
+/// residual is not computed and is left at zero.
 template <class System>
 Residual coulomb_residual(const System& system, std::span<const typename System::Vec> r,
                           std::span<const typename System::Vec> u, const Load& load,
@@ -349,7 +351,7 @@ Residual coulomb_residual(const System& system, std::span<const typename System:
     return load.residual(scaled, given);
 }
 
-/// Solves Coulomb's law by proximal_newton().
+/// Solves Coulomb's law with proximal_newton().
 template <class System>
 Outcome newton(System& system, std::span<typename System::Vec> r, double tolerance,
                NewtonMemory<System>& memory, std::span<const NewtonStart> starts = kNewtonStarts,

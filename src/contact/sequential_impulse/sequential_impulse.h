@@ -1,6 +1,6 @@
-// Sequential impulses: projected Gauss-Seidel sweeps on Coulomb's law, in turn over all normal
-// impulses and over all friction (law.h). They do not aim at a residual: the state after the last
-// sweep is the answer.
+// Sequential impulses: projected Gauss-Seidel sweeps on Coulomb's law, each over all normal
+// impulses and then over all friction impulses (law.h). The sweeps do not aim for a particular
+// residual: the state after the last sweep is the answer.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 
 namespace dihaptic::contact {
 
-/// Sweeps until no contact's velocity changes by more than the tolerance, at most `most` times.
+/// Sweeps until no contact's velocity changes by more than the tolerance, or until `most` sweeps
+/// are done.
 template <class System>
 Outcome sequential_impulse(System& system, std::span<typename System::Vec> r,
                            const SweepSettings& settings, int most) noexcept {

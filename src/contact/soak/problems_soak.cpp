@@ -1,6 +1,6 @@
-// Solves a hundred thousand random contact problems, each from zero impulses; no solver's starting
-// values were tuned on them. Counts how often each solver falls back on the next, and how often
-// none meets the tolerance.
+// Solves a hundred thousand random contact problems, each starting from zero impulses; no solver
+// was tuned on these problems. Counts how often each solver falls back on the next one, and how
+// often no solver meets the tolerance.
 #include <gtest/gtest.h>
 
 #include "contact/test/problems.h"
@@ -25,8 +25,8 @@ INSTANTIATE_TEST_SUITE_P(Soak, Problems,
                                     (of.param.torsion ? "_torsion" : "");
                          });
 
-/// Solves the case's number of problems with its solver, each from zero impulses, and gives each
-/// problem, answer and report to `judge`.
+/// Solves `count` problems with the solver of this test case, each starting from zero impulses, and
+/// passes each problem, its answer and its statistics to `judge`.
 template <class Judge>
 void solve_each(int count, uint64_t seed, const Case& of, const Judge& judge) {
     Random random(seed, "thrown together");
@@ -57,14 +57,14 @@ TEST_P(Problems, AreAnswered) {
     EXPECT_LE(missed, kProblems / 10'000);
 }
 
-/// The excess of a contact's friction over its cone, relative to the cone's radius.
+/// How far a contact's friction is outside its cone, relative to the radius of the cone.
 double outside(const ProblemContact& contact, const Impulse& r) {
     const double radius = contact.friction * r[0];
     const double friction = r.segment<2>(1).norm();
     return friction > radius * (1 + 1e-12) ? friction / radius - 1 : 0;
 }
 
-/// An answer outside the cone would let a finger pull where it must not.
+/// With an answer outside the cone, a finger could pull where it must not.
 TEST_P(Problems, KeepFrictionInTheCone) {
     constexpr int kProblems = 30'000;
     int left = 0;

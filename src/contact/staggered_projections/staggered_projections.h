@@ -4,12 +4,12 @@
 //     friction:  the tangential impulses that dissipate most, on discs of radius mu r_N
 //     contact:   the normal impulses that keep bodies apart, with that friction
 //
-// repeated until they agree. Each is solved exactly by the proximal Newton method, which finds the
-// active set of a convex problem; inexact inner solutions would stall the outer loop at their own
-// error. Contacts without load are left out of the friction problem. Anderson acceleration of the
-// normal impulses shortens the loop; where the loop still wanders, projected Gauss-Seidel sweeps
-// provide new iterates. Every pair ends with a contact projection, so no pair leaves bodies
-// approaching each other; the best pair is the answer.
+// which are repeated until they agree. Each problem is solved exactly by the proximal Newton
+// method, which finds the active set of a convex problem; inexact inner solutions would stall the
+// outer loop at their own error. Contacts without load are left out of the friction problem.
+// Anderson acceleration of the normal impulses shortens the loop; if the loop still wanders,
+// projected Gauss-Seidel sweeps provide new iterates. Every pair ends with a contact projection, so
+// no pair leaves bodies approaching each other; the best pair is the answer.
 #pragma once
 
 #include "contact/anderson.h"
@@ -22,8 +22,8 @@ struct StaggeredMemory {
     NewtonMemory<System> newton;
     Anderson anderson;
     std::vector<typename System::Vec> best;
-    std::vector<double> normal;  ///< the loads for the friction problem
-    std::vector<double> image;   ///< the loads from the contact problem
+    std::vector<double> normal;  ///< the loads given to the friction problem
+    std::vector<double> image;   ///< the loads that result from the contact problem
 
     void reserve(size_t contacts) {
         newton.reserve(contacts);
@@ -34,7 +34,7 @@ struct StaggeredMemory {
     }
 };
 
-/// The working state of staggered_projections().
+/// The working state for staggered_projections().
 template <class System>
 class StaggeredProjections {
   public:
@@ -56,7 +56,7 @@ class StaggeredProjections {
         judge();
         for (size_t j = 0; j < r_.size(); ++j) memory_.normal[j] = std::max(0.0, load_of(j));
         if (out_.residual > kTarget * tolerance_) {
-            solve_for(law::NormalOnly{});  // a first guess of the loads, with the start's friction
+            solve_for(law::NormalOnly{});  // first guess of the loads, with the start's friction
             for (size_t j = 0; j < r_.size(); ++j) memory_.normal[j] = load_of(j);
         }
         while (out_.residual > kTarget * tolerance_ && out_.iterations < most_iterations &&
@@ -79,19 +79,19 @@ class StaggeredProjections {
     }
 
   private:
-    // Relative to |q|. The inner loop aims for the fraction kTarget of this, and need not be much
-    // more exact than the outer loop is at that stage.
+    // Tolerance of the inner loop relative to |q|. The inner loop aims for the fraction kTarget of
+    // it, and need not be much more exact than the outer loop is at that stage.
     static constexpr double kInnerTolerance = 1e-10;
     static constexpr double kInnerOfLast = 1e-3;
-    // Undetermined loads must not wander from pair to pair: a large rho that falls
-    // slowly keeps the inner answer near its start.
+    // Undetermined loads must not wander from one pair to the next: a large rho that falls slowly
+    // keeps the inner answer near its start.
     static constexpr NewtonStart kInnerStart[] = {
         {NewtonStart::From::given, 1e-3, 40, 6, 12, false, 0, 0}};
     static constexpr int kPlainIterations = 3;
     static constexpr int kPatience = 15;  // iterations before sweeps provide a new iterate
     static constexpr int kSweeps = 200;
 
-    /// For a contact; 0 for a joint, whose rows are solved in both problems.
+    /// The load of a contact. Returns 0 for a joint, whose rows are solved in both problems.
     double load_of(size_t j) const { return system_.scale(j).joint != nullptr ? 0 : r_[j][0]; }
 
     /// Solves one of the two convex problems exactly.
@@ -109,7 +109,8 @@ class StaggeredProjections {
             kInnerStart);
     }
 
-    /// Solves friction under the loads of memory.normal, then contact with that friction.
+    /// Solves the friction problem for the loads in memory.normal, then the contact problem for
+    /// that friction.
     void solve_pair() {
         const law::FrictionOnly friction{memory_.normal};
         for (size_t j = 0; j < r_.size(); ++j) {
@@ -121,7 +122,7 @@ class StaggeredProjections {
         solve_for(law::NormalOnly{});
     }
 
-    /// Keeps the pair if it is the best so far. Returns its residual.
+    /// Stores the pair if it is the best so far. Returns its residual.
     double judge() {
         const double residual =
             coulomb_residual(system_, std::span<const Vec>(r_),
@@ -148,12 +149,12 @@ class StaggeredProjections {
         plain_ = kPlainIterations;
     }
 
-    /// Sets the initial loads of the next pair.
+    /// Sets the initial loads for the next pair.
     void accelerate() {
         for (size_t j = 0; j < r_.size(); ++j) memory_.image[j] = load_of(j);
         if (plain_ > 0) {
             --plain_;
-            // Coulomb's law may have several solutions: start with small steps, to find the nearest
+            // Coulomb's law may have several solutions: small first steps find the nearest one
             memory_.normal.swap(memory_.image);
             return;
         }
@@ -169,12 +170,12 @@ class StaggeredProjections {
     Load size_;
 
     Outcome out_;
-    double last_ = std::numeric_limits<double>::infinity();  // residual of the last pair
+    double last_ = std::numeric_limits<double>::infinity();  // residual after the last pair
     int stalled_ = 0;
-    int plain_ = kPlainIterations;  // iterations left without acceleration
+    int plain_ = kPlainIterations;  // number of iterations left without acceleration
 };
 
-/// Starts from r; leaves the best pair in r and its velocity in memory.newton.u.
+/// Starts from r; leaves the best pair in r, and the velocity for that pair in memory.newton.u.
 template <class System>
 Outcome staggered_projections(System& system, std::span<typename System::Vec> r, double tolerance,
                               int most_iterations, StaggeredMemory<System>& memory) {

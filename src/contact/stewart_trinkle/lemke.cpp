@@ -7,11 +7,11 @@
 namespace dihaptic::contact {
 namespace {
 
-/// Column entries below this count as zero, for problems with diagonals of about 1.
+/// Column entries below this value count as zero, in problems whose diagonals are about 1.
 constexpr double kLeastPivot = 1e-10;
 constexpr int kPivotsPerVariable = 8;
 
-/// A value in 0.5 to 1.5, without a pattern, and the same on every machine.
+/// Returns a patternless value between 0.5 and 1.5 that is the same on every machine.
 double scattered(int attempt, int i) noexcept {
     auto x = (static_cast<uint64_t>(attempt) << 32) + static_cast<uint64_t>(i) + 1;
     x *= 0x9E3779B97F4A7C15u;
@@ -64,7 +64,7 @@ bool Lemke::solve(int attempt, int64_t most_pivots) noexcept {
         read_solution();
         return true;
     }
-    // z0 enters in the row that requires its largest value
+    // z0 enters in the row that requires the largest value of z0
     int leaving = 0;
     for (int i = 1; i < n_; ++i) {
         if (lexicographically_less(i, -row(i)[z0], leaving, -row(leaving)[z0])) leaving = i;
@@ -109,7 +109,7 @@ int Lemke::leaving_row(int entering) noexcept {
         if (best < 0 || lexicographically_less(i, by, best, row(best)[entering])) best = i;
     }
     if (best < 0) return best;
-    // in a tie z0 leaves, as this ends the search
+    // in a tie z0 leaves, since that ends the search
     const double ratio = row(best)[stride_ - 1] / row(best)[entering];
     for (int i = 0; i < n_; ++i) {
         const double by = row(i)[entering];
@@ -169,7 +169,7 @@ bool Lemke::try_last_basis() noexcept {
         if (sum < -small) return false;
         w_[static_cast<size_t>(i)] = sum;
     }
-    const auto n = static_cast<unsigned>(n_);  // never below 0, which not every compiler recognises
+    const auto n = static_cast<unsigned>(n_);  // never < 0, which not every compiler recognises
     std::fill(z_.begin(), z_.begin() + n, 0.0);
     for (int i = 0; i < m; ++i) {
         const auto variable = static_cast<size_t>(last_basis_[static_cast<size_t>(i)]);
@@ -179,8 +179,8 @@ bool Lemke::try_last_basis() noexcept {
     return true;
 }
 
-/// Leaves the values of the last basis in right_. Uses Gaussian elimination in this object's
-/// memory, because Eigen's factorisations would allocate. False if the basis is singular.
+/// Computes the values for the last basis, in right_. Uses Gaussian elimination in this object's
+/// memory, because Eigen's factorisations would allocate. Returns false if the basis is singular.
 bool Lemke::solve_last_basis(int m) noexcept {
     const auto at = [&](int i, int j) -> double& {
         return tableau_[static_cast<size_t>(i) * static_cast<size_t>(m) + static_cast<size_t>(j)];

@@ -6,15 +6,15 @@
 //     0 <= lambda _|_ mu r_N - sum b_k      >= 0
 //
 // Directions are fixed in the contact frame, as in the literature, which makes friction between two
-// directions weaker by a factor down to cos(pi/n); or the first is laid along each contact's
-// friction force, so that sliding is isotropic. Torsion of a soft finger adds two directions, about
-// +n and -n.
+// directions weaker by a factor down to cos(pi/n); or the first direction is aligned with each
+// contact's friction force, so that sliding is isotropic. Torsion of a soft finger adds two
+// directions, about +n and -n.
 //
-// Two methods solve it, and the statistics report which one did: Newton's on the polygon and, if
-// that fails, Lemke's in proximal steps, which remove the regularisation from the answer. If
-// directions follow friction, the problem is solved with the present directions, they are turned,
-// and it is solved again, until friction opposes sliding: the answer then obeys Coulomb's law as
-// well.
+// Two methods solve it, and the statistics report which one did: Newton's method on the polygon
+// and, if that fails, Lemke's method in proximal steps, which remove the regularisation from the
+// answer. If directions follow friction, the problem is solved with the current directions, the
+// directions are turned, and the problem is solved again, until friction opposes sliding: the
+// answer then obeys Coulomb's law as well.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@
 
 namespace dihaptic::contact {
 
-/// Starts of Newton's method on a polygon. Each turn of the polygons needs a solve, so every solve
+/// Starts for Newton's method on a polygon. Each turn of the polygons needs a solve, so every solve
 /// must be short: there are twelve short starts from random impulses instead of four with caution,
 /// which would leave less work for Lemke's method.
 constexpr auto kPolygonStarts = [] {
@@ -45,28 +45,28 @@ constexpr auto kPolygonStarts = [] {
 
 struct StewartTrinkleOutcome : Outcome {
     Route route = Route::none;
-    double lcp_residual = 0;  ///< norm of min(z, w) over 1 + |q|, for the given problem
+    double lcp_residual = 0;  ///< norm of min(z, w) divided by 1 + |q|, for the given problem
 };
 
 template <class System>
 struct StewartTrinkleMemory {
     static constexpr int T = System::D - 1;
-    /// The directions of one contact, stored for Lemke's matrix.
+    /// The directions of one contact, stored for use in Lemke's matrix.
     using Directions = Eigen::Matrix<double, T, kMostDirections + 2>;
 
     NewtonMemory<System> newton;
     std::vector<Polygon<T>> polygons;
     std::vector<Directions> directions;
     std::vector<typename System::Vec> best;
-    std::vector<double> aim;    // first directions given to the polygons
-    std::vector<double> image;  // first directions required by the resulting answer
+    std::vector<double> aim;    // the first direction given to each polygon
+    std::vector<double> image;  // the first direction that the resulting answer requires
     Anderson anderson;
-    std::vector<double> last;  // z of the last proximal step
+    std::vector<double> last;  // z from the last proximal step
     Lemke lemke;
 
-    /// The size of Lemke's tableau grows with the square of its variables: it is reserved for
-    /// twelve variables per contact of `lemke_contacts` (eight directions with torsion). Larger
-    /// problems are solved without Lemke's method.
+    /// The size of Lemke's tableau grows with the square of the number of variables. Memory is
+    /// reserved for twelve variables per contact of `lemke_contacts` (eight directions with
+    /// torsion). Larger problems are solved without Lemke's method.
     void reserve(size_t contacts, size_t lemke_contacts) {
         newton.reserve(contacts);
         polygons.reserve(contacts);
@@ -101,9 +101,9 @@ class StewartTrinkle {
         load_ = load(system);
     }
 
-    /// Starts from r; leaves the best answer in r and its velocity in memory.newton.u. `converged`
-    /// means that Stewart and Trinkle's problem is solved and, if directions follow friction,
-    /// Coulomb's as well.
+    /// Starts from r; leaves the best answer in r, and the velocity for that answer in
+    /// memory.newton.u. `converged` means that Stewart and Trinkle's problem is solved and, if
+    /// directions follow friction, Coulomb's as well.
     StewartTrinkleOutcome solve(std::span<Vec> r) {
         StewartTrinkleOutcome out;
         std::copy(r.begin(), r.end(), m_.best.begin());
@@ -111,14 +111,15 @@ class StewartTrinkle {
         if (follows()) turn(r);
         if (accept(r, Route::start, out)) return out;
         solve_and_turn(r, out, [&](double enough) { newton_once(r, enough, out); });
-        // a joint's row has no fixed sign, unlike Lemke's variables
+        // Lemke's variables are non-negative, but the impulse of a joint row can have any sign
         if (!out.converged && !system_.has_joints())
             solve_and_turn(r, out, [&](double enough) { lemke_once(r, enough, out); });
         restore(r);
         return out;
     }
 
-    /// Uses only Newton's method, with each polygon laid along the start's friction and kept there.
+    /// Uses only Newton's method, with each polygon aligned with the start's friction and kept
+    /// there.
     StewartTrinkleOutcome solve_by_newton(std::span<Vec> r) {
         StewartTrinkleOutcome out;
         system_.velocity(r, m_.newton.u);
@@ -139,7 +140,7 @@ class StewartTrinkle {
         return out;
     }
 
-    /// Norm of min(z, w), z = (r_N, b, lambda), with the present polygons.
+    /// Norm of min(z, w), with z = (r_N, b, lambda), for the current polygons.
     Residual residual(std::span<const Vec> r, std::span<const Vec> u) const {
         double scaled = 0;
         double given = 0;
@@ -169,25 +170,25 @@ class StewartTrinkle {
     }
 
   private:
-    /// Limits of solve_and_turn(). The answer with the last polygons is a warm start after a small
-    /// turn.
+    /// Limits of solve_and_turn(). After a small turn, the answer for the last polygons is a warm
+    /// start.
     static constexpr int kMostTurns = 60;
     static constexpr double kInnerOfLast = 1e-3;
-    static constexpr size_t kMostWork = 32000;  // contacts times steps, as in Newton's method
+    static constexpr size_t kMostWork = 32000;  // contacts times steps, as in newton.h
 
     bool follows() const { return settings_.frame == DirectionFrame::sliding; }
 
-    /// Lays first directions along z = r_T - a_T u_T, the direction of friction by the law: along
-    /// r_T where the contact sticks, against u_T where it slides.
+    /// Aligns the first directions with z = r_T - a_T u_T, the direction of friction according to
+    /// the law: along r_T where the contact sticks, against u_T where it slides.
     void turn(std::span<const Vec> r) {
         for (size_t j = 0; j < r.size(); ++j) m_.polygons[j].turn_to(asked(j, r[j]));
     }
     Tangent asked(size_t j, const Vec& r) const {
         return r.template tail<T>() - system_.scale(j).a_t * m_.newton.u[j].template tail<T>();
     }
-    /// Turns the polygons as turn() does, as one step of an iteration accelerated over its
-    /// last steps. Contacts that stick inside their polygon, or are open, do not turn: their
-    /// directions would only disturb the others.
+    /// Turns the polygons like turn(), but as one step of an iteration that is accelerated using
+    /// its last steps. Open contacts, and contacts that stick inside their polygon, do not turn:
+    /// their directions would only disturb the others.
     void turn_faster(std::span<const Vec> r) {
         constexpr double kInside = 1e-9;
         using Map = Eigen::Map<Tangent>;
@@ -208,7 +209,7 @@ class StewartTrinkle {
         for (size_t j = 0; j < r.size(); ++j) m_.polygons[j].turn_to(Map(&m_.aim[j * T]));
     }
 
-    /// Calls `once` to solve the problem with the present polygons and, if directions follow
+    /// Calls `once` to solve the problem with the current polygons and, if directions follow
     /// friction, again after each turn.
     template <class Once>
     void solve_and_turn(std::span<Vec> r, StewartTrinkleOutcome& out, const Once& once) {
@@ -226,7 +227,7 @@ class StewartTrinkle {
         }
     }
 
-    /// Whether r is good enough; keeps it if it is the best so far.
+    /// Stores r if it is the best so far. Returns whether it is good enough.
     bool accept(std::span<const Vec> r, Route route, StewartTrinkleOutcome& out) {
         using Law = law::Polygonal<T>;
         system_.work().spend(Law::kVisits * static_cast<int64_t>(r.size()));
@@ -249,10 +250,10 @@ class StewartTrinkle {
         system_.velocity(r, m_.newton.u);
     }
 
-    /// Solves by Newton's method, at least to the residual `enough`.
+    /// Solves by Newton's method, at least down to the residual `enough`.
     void newton_once(std::span<Vec> r, double enough, StewartTrinkleOutcome& out) {
         auto starts = kPolygonStarts;
-        if (enough > 0) {  // from the answer with slightly different polygons
+        if (enough > 0) {  // start from the answer for slightly different polygons
             starts[0].rho = std::clamp(residual_, 1e-7, starts[0].rho);
             starts[0].sweeps = 0;
         }
@@ -325,9 +326,10 @@ class StewartTrinkle {
         }
     }
 
-    /// Whether the work suffices to fill in a problem with this many variables; spends that work.
+    /// Whether the remaining work suffices to fill in a problem with this many variables; if so,
+    /// spends that work.
     bool affords_entries(int64_t variables) {
-        constexpr int64_t kOfEach = 4;  // each entry needs a product and a place in the tableau
+        constexpr int64_t kOfEach = 4;  // each entry needs a product and is copied into the tableau
         const int64_t visits = kOfEach * variables * variables / Visits::entries + 1;
         if (!system_.work().affords(visits)) return false;
         system_.work().spend(visits);
@@ -339,7 +341,7 @@ class StewartTrinkle {
         system_.work().spend(visits);
         return m_.lemke.try_last_basis();
     }
-    /// Pivots along one covering vector after another.
+    /// Pivots along one covering vector after another until one succeeds.
     bool pivot() {
         constexpr int kAttempts = 4;
         const int64_t visits = m_.lemke.pivot_entries() / Visits::entries + 1;
@@ -353,7 +355,7 @@ class StewartTrinkle {
         return false;
     }
 
-    /// Solves by Lemke's method, at least to the residual `enough`.
+    /// Solves by Lemke's method, at least down to the residual `enough`.
     void lemke_once(std::span<Vec> r, double enough, StewartTrinkleOutcome& out) {
         constexpr double kRho = 1e-3;
         constexpr int kMostProximal = 30;
@@ -394,7 +396,7 @@ class StewartTrinkle {
     double tolerance_;
     StewartTrinkleMemory<System>& m_;
     Load load_;
-    double residual_ = std::numeric_limits<double>::infinity();  ///< of the last attempt
+    double residual_ = std::numeric_limits<double>::infinity();  ///< residual of the last attempt
 };
 
 }  // namespace dihaptic::contact

@@ -1,5 +1,6 @@
-// Grasps jammed between fingers and table, from the soak of `measure`: no method solved any of them
-// before newton had caution (docs/adr/0034). Nothing moves, and the loads are not determined.
+// Grasps that are jammed between fingers and table, taken from the soak test of `measure`: before
+// newton had caution, no method solved any of them (docs/adr/0034). Nothing moves, and the loads
+// are not determined.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -13,11 +14,11 @@ namespace {
 
 struct Jammed {
     ContactProblem problem;
-    std::vector<Impulse> start;  ///< of the previous tick
+    std::vector<Impulse> start;  ///< impulses of the previous tick
 };
 
-/// A file contains the numbers of bodies and contacts, and then the members of each body and
-/// contact in their order.
+/// Reads a problem from a file, which contains the numbers of bodies and contacts, followed by the
+/// members of each body and each contact in order of declaration.
 Jammed read(const std::filesystem::path& file) {
     std::ifstream in(file);
     const auto fill = [&](auto& matrix) {

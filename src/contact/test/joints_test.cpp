@@ -1,5 +1,5 @@
 // Tests joints in the contact problem: against the linear equations of mechanisms, against closed
-// forms of springs, stops and dry friction, and together with contacts.
+// forms of springs, stops and dry friction, and in combination with contacts.
 #include <gtest/gtest.h>
 
 #include "base/unit.h"
@@ -29,9 +29,9 @@ Vec3 random_vector(Random& random, double size) {
     return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
 }
 
-/// Keeps a point of b at a point of a.
+/// A joint that keeps a point of b at a point of a.
 ProblemJoint ball(int a, int b, const Vec3& arm_a, const Vec3& arm_b) {
-    const ProblemContact frame;  // the world's axes
+    const ProblemContact frame;  // frame with the world's axes
     ProblemJoint out;
     out.a = a;
     out.b = b;
@@ -40,7 +40,7 @@ ProblemJoint ball(int a, int b, const Vec3& arm_a, const Vec3& arm_b) {
     return out;
 }
 
-/// The given number of rows that prevent relative rotation of two bodies.
+/// A joint with the given number of rows that prevent relative rotation of two bodies.
 ProblemJoint turns(int a, int b, const Mat3& R, int rows) {
     ProblemJoint out;
     out.a = a;
@@ -52,7 +52,7 @@ ProblemJoint turns(int a, int b, const Mat3& R, int rows) {
     return out;
 }
 
-/// One row along x between a body and the world.
+/// A joint with one row along x between a body and the world.
 ProblemJoint along_x(int b) {
     ProblemJoint out;
     out.b = b;
@@ -62,8 +62,8 @@ ProblemJoint along_x(int b) {
     return out;
 }
 
-/// A chain of bodies on hinges, the first joined to the world; some turn about any axis, some about
-/// none.
+/// A chain of bodies linked by hinges, the first of which is joined to the world. Some bodies can
+/// turn about any axis, some about none.
 ContactProblem mechanism(Random& random, int bodies) {
     ContactProblem out = random_problem(random, bodies, 0);
     for (int i = 0; i < bodies; ++i) {
@@ -82,7 +82,7 @@ Eigen::VectorXd stacked(const std::vector<Vec6>& of) {
     return out;
 }
 
-/// Changes of velocity that follow from the linear equations J M^-1 J' r + (J v + bias) = 0, with
+/// The velocity changes that follow from the linear equations J M^-1 J' r + (J v + bias) = 0, with
 /// the smallest impulses.
 Eigen::VectorXd exact_change(const ContactProblem& problem) {
     const auto m = static_cast<Eigen::Index>(problem.bodies.size());
@@ -127,7 +127,7 @@ TEST(Joints, ThatAreRedundantAreHarmless) {
         const Answer a = answer(Solver::newton, problem);
         EXPECT_FALSE(a.stats.missed) << i;
         EXPECT_LT((stacked(a.change) - exact).norm(), 1e-7 * (1 + exact.norm())) << i;
-        // two redundant joints may share the load in any way, but do not push against each other
+        // two redundant joints may share the load in any way, but must not push against each other
         for (size_t j = 0; j < count; ++j)
             EXPECT_LT(a.joints[j].norm() + a.joints[j + count].norm(),
                       2 * (a.joints[j] + a.joints[j + count]).norm() + 1e-5)
@@ -136,8 +136,8 @@ TEST(Joints, ThatAreRedundantAreHarmless) {
 }
 
 TEST_P(JointsOfEach, AreSpringsThatHoldAtTheEndOfTheStep) {
-    // m (v+ - v) = r, and v+ + bias + compliance r = 0 with compliance = 1 / (h c + h^2 k) and
-    // bias = h k x compliance: the implicit step of a spring and damper
+    // m (v+ - v) = r, and v+ + bias + compliance r = 0 with compliance = 1 / (h c + h^2 k) and bias
+    // = h k x compliance, i.e. the implicit step of a spring and damper
     constexpr double kStep = 1e-3, kMass = 0.2, kX = 0.01, kSpeed = 0.3;
     for (const double k : {10.0, 1e3, 1e5, 1e8}) {
         for (const double c : {0.0, 1.0, 50.0}) {
@@ -165,12 +165,12 @@ TEST_P(JointsOfEach, StopAndRubWithinTheirBounds) {
         problem.bodies.push_back(body(0.5, Vec3::Constant(1e-4)));
         problem.bodies[0].v_W.x() = speed;
         problem.joints.push_back(along_x(0));
-        problem.joints[0].low[0] = 0;  // a stop, which can only push
+        problem.joints[0].low[0] = 0;  // acts as a stop, which can only push
         EXPECT_NEAR(speed + answer(GetParam(), problem).change[0][0], std::max(0.0, speed), 1e-10);
-        problem.joints[0].bias[0] = 0.2;  // at a distance of 0.2 h
+        problem.joints[0].bias[0] = 0.2;  // the stop is 0.2 h away
         EXPECT_NEAR(speed + answer(GetParam(), problem).change[0][0], std::max(-0.2, speed), 1e-10);
         problem.joints[0].bias[0] = 0;
-        problem.joints[0].low[0] = -0.1;  // dry friction: 0.1 N s reduces its velocity by 0.2 m/s
+        problem.joints[0].low[0] = -0.1;  // dry friction: 0.1 N s slows it by 0.2 m/s
         problem.joints[0].high[0] = 0.1;
         const double left = std::abs(speed) > 0.2 ? speed - std::copysign(0.2, speed) : 0;
         EXPECT_NEAR(speed + answer(GetParam(), problem).change[0][0], left, 1e-10) << speed;
@@ -178,8 +178,8 @@ TEST_P(JointsOfEach, StopAndRubWithinTheirBounds) {
 }
 
 TEST_P(JointsOfEach, AndContactsAreSolvedTogether) {
-    // two cubes, joined by a rod, on a slope steeper than the friction angle of one and less steep
-    // than that of the other: both slide as one mass with the mean of the two coefficients
+    // two cubes, joined by a rod, on a slope steeper than one cube's friction angle and less steep
+    // than the other's: they slide as one mass with the mean of the two coefficients
     const double slope = 25 * kDegree;
     const Vec3 n(std::sin(slope), 0, std::cos(slope));
     ContactProblem problem = block_on_plane(n, 0.3);
@@ -203,7 +203,7 @@ TEST_P(JointsOfEach, AndContactsAreSolvedTogether) {
     const double expected = 9.81e-3 * (std::sin(slope) - 0.4 * std::cos(slope));
     for (size_t i = 0; i < 2; ++i)
         EXPECT_LT((problem.bodies[i].v_W + a.change[i].head<3>() - expected * fall).norm(), 1e-8);
-    // the rod pulls the cube with more friction, with half of the difference
+    // the rod pulls the cube that has more friction, with half of the difference
     EXPECT_NEAR(a.joints[0][0], 0.1 * 9.81e-3 * 0.1 * std::cos(slope), 1e-9);
 }
 

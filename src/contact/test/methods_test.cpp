@@ -1,5 +1,5 @@
-// Tests the components of solvers: linear complementarity, sparse factorisation, friction
-// polygon, acceleration, the linearised law.
+// Tests the components of solvers: linear complementarity, sparse factorisation, friction polygon,
+// acceleration, and the linearised law.
 #include <gtest/gtest.h>
 
 #include "contact/anderson.h"
@@ -29,7 +29,7 @@ TEST(LemkeTest, SolvesProblemsThatEnumerationSolves) {
             for (int j = 0; j < n; ++j) lemke.M(i, j) = M(i, j);
         }
         ASSERT_TRUE(lemke.solve(trial % 3));
-        // M is positive definite, so the solution is unique; it is found by trying all sets
+        // M is positive definite, so there is a unique solution; it is found by trying all sets
         for (int set = 0; set < 1 << n; ++set) {
             Eigen::MatrixXd B = Eigen::MatrixXd::Identity(n, n);
             for (int j = 0; j < n; ++j) {
@@ -40,7 +40,7 @@ TEST(LemkeTest, SolvesProblemsThatEnumerationSolves) {
             for (int j = 0; j < n; ++j) EXPECT_NEAR(lemke.z(j), set >> j & 1 ? x[j] : 0, 1e-9);
             break;
         }
-        // the active set of a solved problem also solves a nearby problem
+        // the active set of a solved problem also solves a slightly different problem
         for (int i = 0; i < n; ++i) lemke.q(i) *= 1.0001;
         if (q.minCoeff() < 0) {
             EXPECT_TRUE(lemke.try_last_basis());
@@ -51,19 +51,19 @@ TEST(LemkeTest, SolvesProblemsThatEnumerationSolves) {
 TEST(LemkeTest, EndsOnDegenerateAndUnsolvableProblems) {
     Lemke lemke;
     lemke.reserve(4);
-    lemke.start(4);  // M = 0, all ratios equal
+    lemke.start(4);  // M = 0: all ratios are equal
     for (int i = 0; i < 4; ++i) lemke.q(i) = -1;
     EXPECT_FALSE(lemke.solve(0));  // no z makes w positive
     lemke.start(4);
     for (int i = 0; i < 4; ++i) {
         lemke.q(i) = -1;
-        for (int j = 0; j < 4; ++j) lemke.M(i, j) = 1;  // rank one, ties everywhere
+        for (int j = 0; j < 4; ++j) lemke.M(i, j) = 1;  // rank one: ties everywhere
     }
     ASSERT_TRUE(lemke.solve(0));
     EXPECT_NEAR(lemke.z(0) + lemke.z(1) + lemke.z(2) + lemke.z(3), 1, 1e-12);
 }
 
-/// A matrix in blocks, and the same as a dense one.
+/// A block matrix, and the same matrix in dense form.
 struct BothMatrices {
     BlockLu& lu;
     Eigen::MatrixXd A;
@@ -208,14 +208,13 @@ TEST(PolygonTest, WithTorsionProjectsToItsNearestPoint) {
         const double radius = random.uniform(0.1, 2);
         const Vec3 x = vector(3);
         const auto on = polygon.project(x, radius);
-        // it is the nearest point of a convex body if no part of the body lies beyond the plane
-        // through it
+        // on.point is nearest if no part of the convex body lies beyond the plane through it
         double beyond = 0;
         for (int i = 0; i < polygon.count(); ++i) {
             beyond = std::max(beyond, (x - on.point).dot(radius * polygon.direction(i) - on.point));
         }
         EXPECT_LT(beyond, 1e-12);
-        // and it belongs to the body: it is a combination of the body's vertices
+        // on.point must also belong to the body: it is a combination of the body's vertices
         const auto in = polygon.sector(on.point);
         const Vec3 shares = in.inverse * on.point / radius;
         EXPECT_GT(shares.minCoeff(), -1e-12);
@@ -263,8 +262,8 @@ TEST(AndersonTest, SolvesALinearIterationInAsManyStepsAsItHasUnknowns) {
     EXPECT_LT((Eigen::Map<Eigen::Vector3d>(x.data()) - solution).norm(), 1e-8);
 }
 
-/// Checks G and c of a law against finite differences of its equation: (I + G W) d = -c must be
-/// Newton's step.
+/// Checks G and c of a law against finite differences of its equation: the solution of (I + G W) d
+/// = -c must be Newton's step.
 template <int D, class Law>
 void check_linearisation(const Law& law, uint64_t seed) {
     using Vec = Eigen::Matrix<double, D, 1>;

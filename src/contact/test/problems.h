@@ -1,4 +1,5 @@
-// Contact problems for tests: closed forms, and random ones with a known reference answer.
+// Contact problems for tests: some with closed-form answers, and random ones with a reference
+// answer.
 #pragma once
 
 #include "base/random.h"
@@ -12,7 +13,7 @@ inline ProblemBody body(double mass, const Vec3& inertia) {
     return out;
 }
 
-/// A frame whose first column is the normal.
+/// Returns a frame whose first column is the normal.
 inline Mat3 frame_of(const Vec3& normal) {
     Mat3 R;
     R.col(0) = normal.normalized();
@@ -21,8 +22,8 @@ inline Mat3 frame_of(const Vec3& normal) {
     return R;
 }
 
-/// A cube of 4 cm and 100 g on its four lower corners, on a plane with normal n, with the velocity
-/// after a tick of gravity.
+/// A cube with sides of 4 cm and a mass of 100 g, resting on its four lower corners on a plane with
+/// normal n. Its velocity is that after a tick of gravity.
 inline ContactProblem block_on_plane(const Vec3& n, double mu, double h = 1e-3) {
     const double mass = 0.1;
     const double size = 0.04;
@@ -43,7 +44,7 @@ inline ContactProblem block_on_plane(const Vec3& n, double mu, double h = 1e-3) 
     return out;
 }
 
-/// Bodies scattered in a box, touching each other and the ground at random points: all contact
+/// Bodies scattered in a box that touch each other and the ground at random points: all contact
 /// states occur, and W is often singular.
 inline ContactProblem random_problem(Random& random, int bodies, int contacts,
                                      double torsion_radius = 0) {
@@ -74,8 +75,8 @@ inline ContactProblem random_problem(Random& random, int bodies, int contacts,
     return out;
 }
 
-/// Projected Gauss-Seidel on the exact cone, contact by contact, each solved by many small
-/// projected steps: slow, simple, and sharing no code with the solvers under test.
+/// Projected Gauss-Seidel on the exact cone. Each contact in turn is solved by many small projected
+/// steps: slow and simple, and without sharing code with the solvers under test.
 inline std::vector<Impulse> reference_solution(const ContactProblem& problem, double tolerance) {
     const DelassusProblem d = delassus(problem);
     Eigen::VectorXd r = Eigen::VectorXd::Zero(d.q.size());
@@ -99,11 +100,11 @@ inline std::vector<Impulse> reference_solution(const ContactProblem& problem, do
     return out;
 }
 
-/// Impulses from a cold start, and the solve's statistics.
+/// The impulses and the statistics of a solve from a cold start.
 struct Answer {
     std::vector<Impulse> r;
     std::vector<Vec3> joints;
-    std::vector<Eigen::Matrix<double, 6, 1>> change;  ///< of the bodies' velocities
+    std::vector<Eigen::Matrix<double, 6, 1>> change;  ///< changes in the bodies' velocities
     SolveStats stats;
     SolveDetail detail;
 };

@@ -1,5 +1,5 @@
-// Tests all solvers through their interface: closed forms, invariance, an independent reference,
-// and forbidden results.
+// Tests all solvers through their interface: against closed forms and an independent reference, for
+// invariance, and for results that must not occur.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -53,7 +53,7 @@ TEST_P(EachSolver, SlidesDownTheFallLineAsCoulombSays) {
 }
 
 TEST(StewartTrinkle, SlidesByItsPolygonWhenDirectionsAreFixed) {
-    // halfway between two of n directions, friction is mu cos(pi / n)
+    // halfway between two of n directions, the effective friction is mu cos(pi / n)
     const double slope = 30 * kDegree;
     for (const int n : {4, 8, 16}) {
         ContactProblem problem = block_on_plane(tilted(slope, 0), 0.5);
@@ -75,7 +75,7 @@ TEST(StewartTrinkle, SlidesByItsPolygonWhenDirectionsAreFixed) {
 }
 
 TEST(StewartTrinkle, LeavesTheFallLineOnlyWhenDirectionsAreFixed) {
-    // not aligned: the fall line is 15 degrees from the first of four directions
+    // not aligned: the fall line is at 15 degrees to the first of four directions
     const double slope = 30 * kDegree;
     const Vec3 fall(std::cos(slope), 0, -std::sin(slope));
     ContactProblem problem = block_on_plane(tilted(slope, 0), 0.5);
@@ -90,15 +90,15 @@ TEST(StewartTrinkle, LeavesTheFallLineOnlyWhenDirectionsAreFixed) {
         const Vec3 v = problem.bodies[0].v_W + a.change[0].head<3>();
         return std::atan2(v.cross(fall).norm(), v.dot(fall)) / kDegree;
     };
-    // a little transverse friction keeps the block sliding at 45 degrees to the directions, where
-    // two of them are equally good
+    // a little transverse friction keeps the block sliding at 45 degrees to the directions, two of
+    // which are then equally good
     EXPECT_NEAR(off_fall_line(DirectionFrame::fixed), 30, 1e-4);
     EXPECT_LT(off_fall_line(DirectionFrame::sliding), 1e-5);
 }
 
 TEST(StewartTrinkle, AnswersByMeansOfItsOwn) {
-    // turned polygons end at Coulomb's law, fixed ones at the answer of their own problem, with or
-    // without torsion
+    // turned polygons lead to Coulomb's law, and fixed ones to the answer of their own problem,
+    // with or without torsion
     Random random(9, "random problems");
     for (const DirectionFrame frame : {DirectionFrame::fixed, DirectionFrame::sliding}) {
         for (const double radius : {0.0, 0.005}) {
@@ -116,7 +116,7 @@ TEST(StewartTrinkle, AnswersByMeansOfItsOwn) {
                 }
                 ++own;
             }
-            // with turning polygons, a few problems in a hundred cycle, and more do so with torsion
+            // with turning polygons, a few problems in a hundred cycle, with torsion even more
             const bool hard = frame == DirectionFrame::sliding && radius > 0;
             EXPECT_GE(own, hard ? 190 : 195)
                 << static_cast<int>(frame) << ", torsion radius " << radius;
@@ -147,7 +147,7 @@ TEST(Routes, AreTold) {
     EXPECT_EQ(all.route, Route::newton);
 }
 
-/// A block between two pads that press with 5 N each along x, carrying its weight.
+/// A block between two pads that each press on it with 5 N along x and carry its weight.
 ContactProblem pinch(double mu, double press, double torsion_radius, double torque) {
     const double h = 1e-3;
     ContactProblem out;
@@ -182,7 +182,7 @@ TEST_P(EachSolver, BalancesAGrip) {
 }
 
 TEST_P(EachSolver, SoftFingersLetGoAtTheirElliptic) {
-    // each finger's moment is up to mu r N sqrt(1 - (T / mu N)^2)
+    // the moment of each finger can be up to mu r N sqrt(1 - (T / mu N)^2)
     const double mu = 0.8, press = 5, radius = 0.006;
     const double tangential = 0.1 * 9.81 / 2;
     const double limit =
@@ -193,7 +193,7 @@ TEST_P(EachSolver, SoftFingersLetGoAtTheirElliptic) {
         EXPECT_FALSE(a.stats.missed);
         return std::abs(problem.bodies[0].w_W.x() + a.change[0][3]);
     };
-    // Stewart-Trinkle's limit surface is a polytope inside the ellipsoid
+    // the limit surface of Stewart-Trinkle is a polytope inside the ellipsoid
     const double share = GetParam() == Solver::stewart_trinkle ? 0.9 : 0.999;
     EXPECT_LT(turn(share * limit), 1e-7);
     EXPECT_GT(turn(1.001 * limit), 1e-5);
@@ -233,7 +233,7 @@ TEST_P(EachSolver, AgreesWithAnIndependentReference) {
         const ContactProblem problem = random_problem(random, 1 + i % 3, 1 + i % 6);
         const std::vector<Impulse> reference = testing::reference_solution(problem, 1e-11);
         if (natural_map_residual(problem, reference) > 1e-11)
-            continue;  // the reference is too slow here
+            continue;  // the reference is too slow for this problem
         const Answer a = answer(GetParam(), problem);
         const DelassusProblem d = delassus(problem);
         Eigen::VectorXd difference(d.q.size());
@@ -241,21 +241,21 @@ TEST_P(EachSolver, AgreesWithAnIndependentReference) {
             difference.segment<3>(3 * static_cast<Eigen::Index>(j)) =
                 (a.r[j] - reference[j]).head<3>();
         }
-        // Coulomb friction may have several solutions, which only the residual can assess
+        // Coulomb friction may have several solutions, which can be assessed only by their residual
         if ((d.W * difference).norm() < 1e-6) ++compared;
         EXPECT_LE(natural_map_residual(problem, a.r), 1e-8);
     }
     EXPECT_GE(compared, 30);
 }
 
-/// Makes every other contact soft, from hardly soft to far softer than the bodies.
+/// Makes every other contact soft, from barely soft to far softer than the bodies.
 void soften(Random& random, ContactProblem& problem) {
     for (size_t j = 0; j < problem.contacts.size(); j += 2)
         problem.contacts[j].compliance = std::pow(10, random.uniform(-2, 4));
 }
 
 TEST_P(EachSolver, PressesASoftContactAsItsSpringSays) {
-    // a spring k and a damper c at the end of the step: m (v+ - v) = -h k (x + h v+) - h c v+
+    // spring k and damper c at the end of the step: m (v+ - v) = -h k (x + h v+) - h c v+
     constexpr double kStep = 1e-3, kMass = 0.1, kX = -0.002;
     for (const double k : {50.0, 1e3, 1e5}) {
         for (const double c : {0.5, 20.0}) {
@@ -269,7 +269,7 @@ TEST_P(EachSolver, PressesASoftContactAsItsSpringSays) {
                 const Answer a = answer(GetParam(), problem);
                 const double expected =
                     (kMass * v - kStep * k * kX) / (kMass + kStep * c + kStep * kStep * k);
-                // a separating contact does not pull
+                // a contact that separates does not pull
                 EXPECT_NEAR(v + a.change[0][2], std::max(v, expected), 1e-8)
                     << k << " " << c << " " << v;
             }
@@ -299,7 +299,7 @@ TEST_P(EachSolver, AgreesWithAnIndependentReferenceOnSoftContacts) {
         soften(random, problem);
         const std::vector<Impulse> reference = testing::reference_solution(problem, 1e-11);
         if (natural_map_residual(problem, reference) > 1e-11)
-            continue;  // the reference is too slow here
+            continue;  // the reference is too slow for this problem
         const Answer a = answer(GetParam(), problem);
         for (size_t j = 0; j < reference.size(); ++j) {
             if (problem.contacts[j].compliance > 0) {
@@ -396,13 +396,13 @@ TEST_P(EachSolver, TakesOddProblems) {
     ContactProblem still = block_on_plane(Vec3::UnitZ(), 0.8);
     still.bodies[0].v_W.setZero();
     fine(still);
-    ContactProblem twice = block_on_plane(Vec3::UnitZ(), 0.8);  // with each contact twice
+    ContactProblem twice = block_on_plane(Vec3::UnitZ(), 0.8);  // every contact is duplicated
     for (size_t j = 0; j < 4; ++j) twice.contacts.push_back(twice.contacts[j]);
     fine(twice);
     ContactProblem held = block_on_plane(Vec3::UnitZ(), 0.8);  // the block can only rise
     held.bodies[0].inverse_mass = Vec6(0, 0, 10, 0, 0, 0).asDiagonal();
     fine(held);
-    ContactProblem heavy = block_on_plane(Vec3::UnitZ(), 0.8);  // a gram under a ton
+    ContactProblem heavy = block_on_plane(Vec3::UnitZ(), 0.8);  // a mass of one gram under a ton
     heavy.bodies.push_back(testing::body(1000, Vec3::Constant(100)));
     heavy.bodies[1].v_W = Vec3(0, 0, -0.01);
     ProblemContact top;
@@ -488,7 +488,7 @@ TEST(SequentialImpulse, NearsTheAnswerOfTheOthersWithTorsionToo) {
         EXPECT_LT(residual, 1e-2) << i;
         near += residual < 1e-5 ? 1 : 0;
     }
-    EXPECT_GE(near, 95);  // a few problems in a hundred go round in circles
+    EXPECT_GE(near, 95);  // a few problems in a hundred cycle
 }
 
 TEST(Hold, TakesAwayOneMotionAndKeepsTheInertiaOfTheOthers) {

@@ -1,4 +1,4 @@
-// Tests that the work of all solves of a tick together is bounded, whichever solver is requested.
+// Tests that the total work of all solves in a tick is bounded, whichever solver is requested.
 #include <gtest/gtest.h>
 
 #include "contact/test/problems.h"
@@ -17,7 +17,7 @@ TEST(WorkTest, KeepsAShareForSweepsAndForOthers) {
     work.begin_sweeps(0);
     EXPECT_EQ(work.times(10), 20);
     work.spend(150);
-    work.begin_sweeps(120);  // these sweeps are always made
+    work.begin_sweeps(120);  // these sweeps are always allowed
     EXPECT_TRUE(work.affords(120));
     EXPECT_FALSE(work.affords(121));
 
@@ -40,8 +40,8 @@ INSTANTIATE_TEST_SUITE_P(Contact, EachSolversWork,
                                  enum_names(Solver{})[static_cast<size_t>(which.param)]);
                          });
 
-/// Two contradictory loads: there is no answer, and without a bound each solver tries
-/// all others.
+/// A problem with two contradictory loads: there is no answer, and unless the work is bounded, each
+/// solver tries all the others.
 ContactProblem without_answer(Random& random, int bodies, int contacts) {
     ContactProblem out = testing::random_problem(random, bodies, contacts);
     for (size_t j = 0; j < 2; ++j) {
@@ -69,7 +69,7 @@ TEST_P(EachSolversWork, IsBoundedWhereThereIsNoAnswer) {
         SolveStats stats;
         solvers.solve(GetParam(), settings, problem, r, stats);
         EXPECT_EQ(stats.work, tick.spent());
-        // additional work: assembly, the fewest sweeps, their final residual
+        // additional work: assembly, the minimum number of sweeps, and their final residual
         EXPECT_LE(stats.work, most + 24 * 40) << i;
         EXPECT_TRUE(stats.missed);
         EXPECT_EQ(stats.ended, stats.route == Route::out_of_work);
@@ -124,7 +124,7 @@ TEST_P(EachSolversWork, ChangesNothingWhereThereIsEnoughOfIt) {
 }
 
 TEST_P(EachSolversWork, IsNotSpentOnWhatNothingCanPushApart) {
-    // on a rail along x, deep inside a table: the contact requires an impossible motion
+    // on a rail along x, deep inside a table, so that the contact requires an impossible motion
     ContactProblem problem = testing::block_on_plane(Vec3::UnitZ(), 0.8);
     for (const int i : {1, 2, 3, 4, 5}) hold(problem.bodies[0].inverse_mass, i);
     problem.bodies[0].v_W = {0.1, 0, 0};

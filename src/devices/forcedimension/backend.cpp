@@ -51,7 +51,7 @@ std::vector<frame::DeviceInfo> describe(const std::vector<DeviceConfig>& configs
     return out;
 }
 
-/// Opens every device that can be opened. Throws the last Error if none can.
+/// Opens every device that can be opened. Throws the last Error if no device can be opened.
 std::vector<Connection> open_all(const Dhd& dhd, const Place& place) {
     const int count = dhd.device_count();
     if (count <= 0) throw Error(place, "serial", "no Force Dimension device is connected", kNobody);
@@ -66,8 +66,8 @@ std::vector<Connection> open_all(const Dhd& dhd, const Place& place) {
     return out;
 }
 
-/// Removes from `there` the connection of one device in the rig, and returns it. Throws Error if
-/// none or several fit.
+/// Removes the connection to one of the rig's devices from `there`, and returns it. Throws Error if
+/// no connection fits the options, or if more than one does.
 Connection take(std::vector<Connection>& there, const Options& options, const Place& place) {
     const bool chosen = options.serial != Options::kAny;
     std::vector<size_t> fits;
@@ -99,8 +99,8 @@ Connection take(std::vector<Connection>& there, const Options& options, const Pl
     return out;
 }
 
-/// Adds orientation and torque to `info`. A device that does not measure orientation renders no
-/// torque.
+/// Adds orientation and torque to `info`. A device that does not measure orientation does not
+/// render torque.
 void add_wrist(const Dhd& dhd, const Connection& connection, const Options& options,
                const Place& place, frame::DeviceInfo& info) {
     info.measures_orientation = options.orientation && dhd.has_wrist(connection.id());

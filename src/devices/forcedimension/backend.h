@@ -1,5 +1,5 @@
-// The backend `forcedimension`: Force Dimension's devices (omega, delta, sigma) and the Novint
-// Falcon, through the DHD API; see README.md.
+// The backend `forcedimension`, for Force Dimension's devices (omega, delta, sigma) and the Novint
+// Falcon; it uses the DHD API (see README.md).
 #pragma once
 
 #include "devices/device_group.h"

@@ -1,5 +1,6 @@
-// Our own declarations of the part of Force Dimension's DHD API (libdhd, or libdrd, which contains
-// it) that we use. Units are SI; every call identifies its device by a number, `id`.
+// Dihaptic's own declarations of the parts of Force Dimension's DHD API that it uses (libdhd, or
+// libdrd, which contains libdhd). All units are SI units; every call identifies its device by the
+// number `id`.
 #pragma once
 
 #include <array>
@@ -8,14 +9,14 @@
 
 namespace dihaptic::devices::forcedimension {
 
-/// The array that dhdGetStatus() fills: 17 numbers in 3.17.5, with room for those of later
-/// versions.
+/// The array that dhdGetStatus() fills: 17 numbers in version 3.17.5, with room for the additional
+/// numbers of later versions.
 using DhdStatus = std::array<int, 64>;
 enum DhdStatusIndex : unsigned {
     kDhdPower = 0,
     kDhdConnected = 1,
     kDhdReset = 3,  // needs calibration
-    kDhdForce = 5,  // force is on
+    kDhdForce = 5,  // whether force is on
     kDhdBrake = 6,
     kDhdErrorIndex = 9,
     kDhdForceOffCause = 14,
@@ -29,13 +30,13 @@ enum DhdForceOff : int {
     kDhdByDeadMan = 6,
 };
 
-/// dhdSetWatchdog() accepts a number of steps. The largest number, and the length of a step [s]; 0
-/// switches the watchdog off.
+/// Arguments of dhdSetWatchdog(), which takes a number of steps: the largest possible number, and
+/// the length of a step [s]. A number of 0 switches the watchdog off.
 constexpr unsigned char kDhdLongestWatchdog = 255;
 constexpr double kDhdWatchdogStep = 125e-6;
 
-/// The library's functions. They return -1 for an error. Values of 0 and more are not errors: 1
-/// means that the time guard returned the last state again, 2 that a motor is saturated.
+/// The library's functions. They return -1 on error. Values of 0 or more are not errors: 1 means
+/// that the time guard returned the previous state again, 2 that a motor is saturated.
 struct Dhd {
     int (*device_count)() = nullptr;
     int (*open_id)(char id) = nullptr;
@@ -53,18 +54,19 @@ struct Dhd {
     int (*set_force_and_torque)(double, double, double, double, double, double, char id) = nullptr;
     unsigned (*buttons)(char id) = nullptr;
     int (*compensate_gravity)(int on, char id) = nullptr;
-    double (*max_force)(char id) = nullptr;   // negative: not stated
-    double (*max_torque)(char id) = nullptr;  // negative: not stated
+    double (*max_force)(char id) = nullptr;   // negative if the device does not state it
+    double (*max_torque)(char id) = nullptr;  // negative if the device does not state it
     int (*enable_expert_mode)() = nullptr;
     int (*disable_expert_mode)() = nullptr;
-    int (*set_watchdog)(unsigned char steps, char id) = nullptr;  // in expert mode
+    int (*set_watchdog)(unsigned char steps, char id) = nullptr;  // available only in expert mode
     int (*status)(int*, char id) = nullptr;
     const char* (*last_error)() = nullptr;
 
-    std::string file;  ///< from which the functions were loaded
+    std::string file;  ///< the file from which the functions were loaded
 };
 
-/// Loads the library from `path`, or as found by the system if `path` is empty. Throws Error.
+/// Loads the library from `path` or, if `path` is empty, from wherever the system finds it. Throws
+/// Error if it cannot be loaded.
 Dhd load_dhd(const std::string& path, const Place& place);
 
 }  // namespace dihaptic::devices::forcedimension

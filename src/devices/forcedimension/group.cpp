@@ -85,7 +85,8 @@ Error Group::error(const Device& device, const std::string& doing) const {
             "Check its power and its cable, and switch it off and on."};
 }
 
-/// The watchdog ends the device's force by itself when a program dies, is stopped or hangs.
+/// Sets the device's watchdog, which switches its force off when the program dies, is stopped or
+/// hangs.
 void Group::set_watchdog(const Device& device) const {
     dhd_.enable_expert_mode();
     const int done = dhd_.set_watchdog(kDhdLongestWatchdog, device.connection.id());
@@ -175,12 +176,12 @@ uint32_t Group::read(size_t i, Time now, Reading& reading) noexcept {
 }
 
 uint32_t Group::drop_status(Running& running, Time now) noexcept {
-    // in a pause nothing is written, and there is no force on the hand to be lost
+    // in a pause, nothing is written, so there is no force on the hand that could be lost
     if (running.cause == kDhdByWatchdog && running.quiet) {
         running.cause = 0;
         return 0;
     }
-    // it is not a fault, however long a person keeps force off
+    // however long a person keeps force off in this way, it is not a fault
     if (running.cause == kDhdByButton || running.cause == kDhdByDeadMan) return kForceDropped;
     return running.drops.status(now, true);
 }
@@ -209,7 +210,7 @@ void Group::do_write(std::span<const Wrench> wrenches_D) noexcept {
         running.quiet = wrench.is_zero();
         running.saturated = done == 2;
         if (running.off && !stopped) dhd_.enable_force(1, devices_[i].connection.id());
-        // a lost connection appears in the next reading
+        // if the connection is lost, the next reading reports it
         if (done < 0) keep_last_error(running);
     }
 }
@@ -217,7 +218,7 @@ void Group::do_write(std::span<const Wrench> wrenches_D) noexcept {
 bool Group::do_stop() noexcept {
     stopped_.store(true);
     bool off = true;
-    // the library may be called from several threads at once
+    // several threads may call the library at the same time
     for (const Device& device : devices_)
         off = dhd_.enable_force(0, device.connection.id()) >= 0 && off;
     return off;

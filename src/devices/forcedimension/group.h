@@ -1,5 +1,6 @@
-// A group of DHD devices. The servo's own thread keeps time. D is the manufacturer's frame: x
-// toward the person, y right, z up, with its origin in the middle of the workspace.
+// A group of DHD devices. The servo's own thread paces the tick. D is the manufacturer's frame: x
+// points toward the person, y to the right, z upwards, and the origin is in the middle of the
+// workspace.
 #pragma once
 
 #include <atomic>
@@ -11,18 +12,18 @@
 
 namespace dihaptic::devices::forcedimension {
 
-/// Options of a device in the rig file.
+/// Options for a device in the rig file.
 struct Options {
-    int serial = kAny;                        ///< kAny: the only connected device
-    std::string library;                      ///< path of libdhd.so, if the system finds none
-    std::optional<double> peak_force;         ///< limit for this device [N]
+    int serial = kAny;                        ///< kAny stands for the only connected device
+    std::string library;                      ///< path of libdhd.so, if the system does not find it
+    std::optional<double> peak_force;         ///< force limit for this device [N]
     std::optional<double> continuous_force;   ///< force that the device can sustain [N]
-    std::optional<Vec3> workspace;            ///< edges of the box around D's origin [m]
-    bool orientation = true;                  ///< whether orientation is used, if measured
-    std::optional<double> peak_torque;        ///< limit for this device [N*m]
+    std::optional<Vec3> workspace;            ///< edge lengths of the box around D's origin [m]
+    bool orientation = true;                  ///< whether orientation is used, if it is measured
+    std::optional<double> peak_torque;        ///< torque limit for this device [N*m]
     std::optional<double> continuous_torque;  ///< torque that the device can sustain [N*m]
-    /// Whether to set the watchdog with which the device ends its force when commands stop;
-    /// otherwise the watchdog is left unchanged.
+    /// Whether to set the watchdog with which the device switches off its force when commands stop
+    /// arriving; if false, the watchdog is left unchanged.
     bool watchdog = true;
 
     template <class Visitor>
@@ -56,15 +57,15 @@ struct Options {
     }
 
     static constexpr int kAny = -1;
-    /// "" for any.
+    /// The serial number as text; "" stands for any device.
     std::string serial_text() const { return serial == kAny ? "" : number_text(serial); }
 };
 
-/// An open device; the destructor closes it.
+/// An open device, which the destructor closes.
 class Connection {
   public:
-    /// Opens the n-th connected device, from 0. Throws Error, for `place`, when it cannot be
-    /// opened.
+    /// Opens the n-th connected device, counted from 0. Throws Error at `place` if the device
+    /// cannot be opened.
     Connection(const Dhd& dhd, int n, const Place& place);
     ~Connection();
     Connection(Connection&& other) noexcept;
@@ -86,7 +87,7 @@ class Group final : public DeviceGroup {
     struct Device {
         Connection connection;
         frame::DeviceInfo info;
-        std::string who;  ///< device in words, for messages
+        std::string who;  ///< description of the device for use in messages
         Place place{};
         bool watchdog = true;
     };
@@ -98,10 +99,10 @@ class Group final : public DeviceGroup {
   private:
     struct Running {
         ForceDrops drops;
-        bool off = false;        // whether force was off in this tick's reading
+        bool off = false;        // whether force was off in the reading of this tick
         bool quiet = true;       // whether the last force written was zero
-        bool saturated = false;  // whether a motor was at its limit
-        int cause = 0;           // the last DhdForceOff
+        bool saturated = false;  // whether a motor has reached its limit
+        int cause = 0;           // the last reason for which force was off, a DhdForceOff
         std::array<char, 160> said{};
     };
 

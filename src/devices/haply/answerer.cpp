@@ -15,12 +15,12 @@
 namespace dihaptic::devices::haply {
 namespace {
 
-constexpr const char* kMapped = "0000000000000000FFFF0000";  // before an IPv4 address, in tcp6
+constexpr const char* kMapped = "0000000000000000FFFF0000";  // precedes an IPv4 address in tcp6
 
-/// An end of a connection as in /proc/net/tcp and tcp6: words of the address as in
-/// memory, and the port.
+/// One end of a connection in the format of /proc/net/tcp and tcp6: the words of the address as
+/// they are in memory, and the port.
 struct End {
-    bool local = false;  // whether the end is within this machine
+    bool local = false;  // whether this end is on this machine
     bool v6 = false;
     std::string text;
 };
@@ -48,7 +48,7 @@ std::optional<End> end_of(int socket, decltype(getsockname)* name) {
     return out;
 }
 
-/// The user of the socket between these ends.
+/// The user who owns the socket with these ends.
 std::optional<uid_t> user_of(const char* table, const std::string& from, const std::string& to) {
     std::ifstream in(table);
     std::string line;
@@ -77,7 +77,8 @@ std::optional<uid_t> user_at_other_end(int socket) {
 }
 
 bool may_serve(uid_t user) {
-    constexpr uid_t kFirstPerson = 1000;                              // as Debian numbers users
+    // first number of an ordinary user on Debian
+    constexpr uid_t kFirstPerson = 1000;
     constexpr uid_t kFirstOfService = 61184, kLastOfService = 65519;  // systemd's DynamicUser
     return user == geteuid() || user < kFirstPerson ||
            (user >= kFirstOfService && user <= kLastOfService);

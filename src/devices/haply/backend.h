@@ -1,4 +1,5 @@
-// The backend `haply`: Haply Inverse3 devices, through Haply's Inverse Service; see README.md.
+// The backend `haply`, for Haply Inverse3 devices, which it reaches through Haply's Inverse Service
+// (see README.md).
 #pragma once
 
 #include "devices/device_group.h"

@@ -35,8 +35,8 @@ error_code system_error(int number) {
     return {number, boost::system::system_category()};
 }
 
-/// A socket with a deadline for reads and writes. Beast's own time limits work only with its
-/// asynchronous calls, which allocate.
+/// A socket with a deadline for reading and writing. Beast's own time limits work only with its
+/// asynchronous calls, which allocate memory.
 class TimedSocket {
   public:
     using executor_type = net::io_context::executor_type;
@@ -48,7 +48,7 @@ class TimedSocket {
     int descriptor() const noexcept { return fd_.load(); }
     void set_deadline(Steady::time_point deadline) { deadline_ = deadline; }
 
-    /// Connects to the first of the host's addresses that answers before the deadline.
+    /// Connects to the first of the host's addresses that responds before the deadline.
     error_code connect(const addrinfo* addresses) {
         error_code ec = net::error::host_not_found;
         for (const addrinfo* address = addresses; address != nullptr; address = address->ai_next) {
@@ -77,21 +77,21 @@ class TimedSocket {
     }
     template <class Buffers>
     size_t write_some(const Buffers& buffers, error_code& ec) {
-        // TCP_NODELAY sends at once: a frame's header and its text have to go in one segment
+        // TCP_NODELAY sends data at once, so a frame's header and text have to go in one segment
         std::array<iovec, 8> parts{};
         msghdr message{};
         message.msg_iov = parts.data();
         for (auto it = net::buffer_sequence_begin(buffers);
              it != net::buffer_sequence_end(buffers) && message.msg_iovlen < parts.size(); ++it) {
             const net::const_buffer part = *it;
-            // the cast is safe: sendmsg() only reads from this pointer
+            // the cast is safe because sendmsg() only reads from this pointer
             parts[message.msg_iovlen++] = {const_cast<void*>(part.data()), part.size()};
         }
         return transfer(POLLOUT, ec, [&] {
             return ::sendmsg(fd_.load(), &message, MSG_DONTWAIT | MSG_NOSIGNAL);
         });
     }
-    // Beast's concept of a stream requires these; nothing here calls them.
+    // Beast's concept of a stream requires these functions, although nothing here calls them.
     template <class Buffers>
     size_t read_some(const Buffers& buffers) {
         error_code ec;
@@ -122,7 +122,7 @@ class TimedSocket {
         return {};
     }
 
-    /// Repeats `call` until it succeeds or fails, or until the deadline.
+    /// Repeats `call` until it succeeds or fails, or until the deadline passes.
     template <class Call>
     size_t transfer(short event, error_code& ec, const Call& call) {
         ec = {};
@@ -200,7 +200,7 @@ std::optional<Url> Url::parse(const std::string& text) {
 struct Connection::Impl {
     using Stream = websocket::stream<TimedSocket>;
 
-    net::io_context context;  // never run, but Beast's timers need a context
+    net::io_context context;  // Beast's timers need a context, although it is never run
     Stream stream{context};
     bool open = false;
     std::vector<char> message = std::vector<char>(kMostBytes + kPadding);
@@ -234,7 +234,7 @@ void Connection::open(const Url& url, Time time_out) {
     }
     const std::unique_ptr<addrinfo, void (*)(addrinfo*)> addresses(found, ::freeaddrinfo);
 
-    // a new stream, because a closed stream cannot be reopened
+    // a new stream is needed because a closed one cannot be reopened
     impl_ = std::make_unique<Impl>();
     impl_->allow(time_out);
     error_code ec = impl_->stream.next_layer().connect(addresses.get());

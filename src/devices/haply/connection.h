@@ -1,5 +1,5 @@
-// A WebSocket connection to a service, for a real-time loop: messages pass through buffers that are
-// allocated once, and each call has a time limit.
+// A WebSocket connection to a service, for use in a real-time loop: the message buffers are
+// allocated only once, and each call has a time limit.
 #pragma once
 
 #include <memory>
@@ -17,15 +17,16 @@ struct Url {
     int port = 80;
     std::string path = "/";
 
-    /// Returns nullopt if the text is not such an address.
+    /// Parses an address. Returns nullopt if the text is not an address of this form.
     static std::optional<Url> parse(const std::string& text);
 };
 
 class Connection {
   public:
-    /// Longest message that can be received [bytes]. A full inventory has about 2000 a device.
+    /// Longest message that can be received [bytes]. A full inventory takes about 2000 bytes per
+    /// device.
     static constexpr size_t kMostBytes = 1 << 18;
-    /// Number of bytes after each message that must be readable, because the parser reads past the
+    /// Number of bytes that must be readable after each message, because the parser reads past the
     /// end.
     static constexpr size_t kPadding = 64;
 
@@ -34,20 +35,21 @@ class Connection {
     Connection(const Connection&) = delete;
     Connection& operator=(const Connection&) = delete;
 
-    /// Connects and shakes hands. Throws an Error with the address, the cause and the
-    /// remedy.
+    /// Connects and performs the WebSocket handshake. Throws an Error with the address, the cause
+    /// and the remedy.
     void open(const Url& url, Time time_out);
     void close() noexcept;
     bool is_open() const noexcept;
 
-    /// Sends a text message; false when the connection is lost.
+    /// Sends a text message. Returns false if the connection is lost.
     bool send(std::string_view message, Time time_out) noexcept;
-    /// The next message, valid until the next call. Empty if no message was complete in time or the
-    /// connection is lost; the connection is then closed, since a late answer would be mistaken for
-    /// the next answer.
+    /// Receives the next message, which stays valid until the next call. The result is empty if no
+    /// complete message arrived in time or if the connection is lost. The connection is then
+    /// closed, because a late answer would be mistaken for the answer to the next message.
     std::string_view receive(Time time_out) noexcept;
 
-    /// Ends the connection from any thread, while another is in send() or receive().
+    /// Ends the connection. May be called from any thread, even while another thread is in send()
+    /// or receive().
     void shut_down() noexcept;
 
   private:

@@ -15,7 +15,8 @@
 namespace dihaptic::devices::haply {
 namespace {
 
-/// Number of readings for an angular velocity, which the service does not report for grips.
+/// Number of readings from which the angular velocity is computed, because the service does not
+/// report it for grips.
 constexpr int kTurnWindow = 8;
 
 std::optional<Grip> grip_of(const Options& options) {
@@ -38,7 +39,7 @@ std::vector<frame::DeviceInfo> infos(const std::vector<Wanted>& devices) {
     return out;
 }
 
-/// Reads the options of all devices, and checks that they are compatible.
+/// Reads the options of all devices, and checks that they are compatible with each other.
 std::vector<Wanted> read_wanted(const std::vector<DeviceConfig>& configs,
                                 Diagnostics& diagnostics) {
     std::vector<Wanted> devices;
@@ -108,8 +109,8 @@ class HaplyGroup final : public DeviceGroup {
         connection_.open(url_, kSetUpTime);
         receive_first(connection_, reader_, message_, "list of devices");
         check_inventory(message_, devices_);
-        // a force of zero, to learn whether the service accepts commands before a hand feels
-        // anything
+        // sends a force of zero, to find out whether the service accepts commands before a hand
+        // feels anything
         std::fill(forces_D_.begin(), forces_D_.end(), Vec3::Zero());
         connection_.send(writer_.write(forces_D_, true), kSetUpTime);
         receive_first(connection_, reader_, message_, "answer to a command");
@@ -127,7 +128,7 @@ class HaplyGroup final : public DeviceGroup {
         connection_.close();
     }
 
-    /// Receives all outstanding answers; the last one is the state.
+    /// Receives all outstanding answers; the last one contains the current state.
     void receive() noexcept {
         for (; unanswered_ > 0; --unanswered_) {
             const std::string_view text = connection_.receive(time_out_);
@@ -170,8 +171,8 @@ class HaplyGroup final : public DeviceGroup {
         }
     }
 
-    /// Reads a device's state from the message; false if the state is missing or incomplete, or the
-    /// device cannot be used.
+    /// Reads a device's state from the message. Returns false if the state is missing or
+    /// incomplete, or if the device cannot be used.
     bool take(const Wanted& device, Cycle& cycle, Time now) const noexcept {
         const DeviceState* state = message_.device(device.options.device_id);
         if (state == nullptr || !state->p_DH || !state->v_DH) return false;
@@ -202,7 +203,7 @@ class HaplyGroup final : public DeviceGroup {
 
     void do_pace(const std::function<bool()>& tick) override {
         receive();
-        fresh_ = false;  // the answer may date from before the preceding pause
+        fresh_ = false;  // the answer may date from before the last pause
         while (true) {
             if (unanswered_ == 0) ask_without_force();
             receive();
@@ -227,9 +228,9 @@ class HaplyGroup final : public DeviceGroup {
     CommandWriter writer_;
     std::vector<Vec3> forces_D_;
     std::vector<Cycle> cycles_;
-    int unanswered_ = 0;  // number of unanswered messages
-    bool fresh_ = false;  // whether no read() has used message_ yet
-    bool sound_ = false;  // whether message_ is the last answer, complete and without an error
+    int unanswered_ = 0;  // number of messages that have not been answered yet
+    bool fresh_ = false;  // whether message_ has not been used by a read() yet
+    bool sound_ = false;  // whether message_ is the last answer and is complete and free of errors
     std::atomic<bool> stopped_{false};
 };
 

@@ -8,7 +8,7 @@
 namespace dihaptic::devices::haply {
 namespace {
 
-/// Why a device cannot be used, and the remedy; both are empty if it can.
+/// The reason why a device cannot be used, and the remedy; both are empty if it can be used.
 std::pair<std::string, std::string> trouble(const DeviceState& state) {
     if (state.power_supply == false) return {"has no power", "Plug its power supply in."};
     if (state.calibrated == false) {

@@ -1,4 +1,4 @@
-// Compares the Inverse Service's list with the devices in a rig file.
+// Compares the list of devices that the Inverse Service reports with the devices in a rig file.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace dihaptic::devices::haply {
 
-/// Time limit for connecting and for the first messages, which need longer than those of the cycle.
+/// Time limit for connecting and for the first messages, which take longer than those of a tick.
 constexpr Time kSetUpTime = std::chrono::seconds(2);
 
 struct Grip {
@@ -19,19 +19,20 @@ struct Grip {
 struct Wanted {
     Options options;
     Place place;
-    std::optional<Grip> grip;  ///< grip that gives the finger's orientation
+    std::optional<Grip> grip;  ///< the grip that measures the finger's orientation
 };
 
-/// Receives an inventory, or the first answer to a command; `what` is its name in messages. Throws
-/// Error.
+/// Receives an inventory or the first answer to a command; `what` is what error messages call it.
+/// Throws Error if it does not arrive or cannot be read.
 void receive_first(Connection& connection, StateReader& reader, StateMessage& message,
                    const char* what);
-/// Throws Error unless each device and grip is listed once and each device can be used.
+/// Throws Error unless each device and each grip is listed exactly once and each device can be
+/// used.
 void check_inventory(const StateMessage& message, std::span<const Wanted> devices);
 /// Throws Error if the service did not understand the first command.
 void check_answer(const StateMessage& message, std::span<const Wanted> devices);
 
-/// The list of the service at `url`, for `dihaptic devices`.
+/// The devices listed by the service at `url`, for `dihaptic devices`.
 Survey survey_of(const std::string& url);
 
 }  // namespace dihaptic::devices::haply

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <charconv>
 
-#define SIMDJSON_EXCEPTIONS 0  // calls that could throw do not compile
+#define SIMDJSON_EXCEPTIONS 0  // calls that could throw then do not compile
 #include <simdjson.h>
 
 #include "base/unmeasured.h"
@@ -16,7 +16,8 @@ namespace json = simdjson::ondemand;
 
 static_assert(Connection::kPadding >= simdjson::SIMDJSON_PADDING);
 
-/// Calls `use(key, value)` for each member; false if the text is truncated or is not an object.
+/// Calls `use(key, value)` for each member of an object. Returns false if the text is truncated or
+/// is not an object.
 template <class Use>
 bool for_members(const simdjson::simdjson_result<json::object>& object, const Use& use) {
     if (object.error()) return false;
@@ -30,7 +31,8 @@ bool for_members(const simdjson::simdjson_result<json::object>& object, const Us
     return true;
 }
 
-/// Calls `use(element)` for each element; false if the text is truncated or is not an array.
+/// Calls `use(element)` for each element of an array. Returns false if the text is truncated or is
+/// not an array.
 template <class Use>
 bool for_elements(json::value value, const Use& use) {
     json::array elements;
@@ -202,7 +204,7 @@ namespace {
 constexpr std::string_view kProfile =
     R"("session":{"configure":{"profile":{"name":"org.dihaptic:dihaptic"}}},)";
 constexpr size_t kNumberBytes = 32;
-/// Bytes of a device's part of the message, without its serial number.
+/// Number of bytes that a device takes up in the message, not counting its serial number.
 constexpr size_t kDeviceBytes = 128 + 3 * kNumberBytes;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The messages to and from the Inverse Service: JSON, written and read without allocating.
-// README.md has an example of each.
+// Messages to and from the Inverse Service. They are JSON texts, written and read without
+// allocating memory. README.md has an example of each kind.
 #pragma once
 
 #include <array>
@@ -15,10 +15,11 @@
 
 namespace dihaptic::devices::haply {
 
-/// The service's report on an Inverse3. Omitted fields are nullopt.
+/// The service's report on an Inverse3. Fields that the service omits are nullopt.
 struct DeviceState {
     std::string_view id;
-    /// In D [m], [m/s]; a component that is not a number is NaN, an omitted one is 0.
+    /// Position and velocity in D [m], [m/s]. A component that is not a number is NaN; an omitted
+    /// component is 0.
     std::optional<Vec3> p_DH;
     std::optional<Vec3> v_DH;
     std::optional<bool> calibrated;
@@ -36,17 +37,18 @@ struct GripState {
     GripKind kind = GripKind::verse_grip;
     std::string_view id;
     std::optional<Quat> R;  ///< a component that is not a number is NaN
-    uint32_t buttons = 0;   ///< bits of the buttons a, b and c: 1, 2, 4
+    uint32_t buttons = 0;   ///< bits of buttons a, b and c: 1, 2, 4
 };
 
-/// A message from the service. Texts are valid until the next message is read.
+/// A message from the service. Its texts are valid until the next message is read.
 struct StateMessage {
-    static constexpr size_t kMostDevices = 16;  ///< the same for grips; further devices and grips
-                                                ///< are left out
+    /// Also the largest number of grips; further devices and grips are left out.
+    static constexpr size_t kMostDevices = 16;
 
     std::span<const DeviceState> devices() const { return {device_list.data(), device_count}; }
     std::span<const GripState> grips() const { return {grip_list.data(), grip_count}; }
-    /// The only device, or grip, with that serial number; null if there is none, or more than one.
+    /// The only device or grip with this serial number; null if there is none, or if there is more
+    /// than one.
     const DeviceState* device(std::string_view id) const;
     const GripState* grip(GripKind kind, std::string_view id) const;
 
@@ -54,17 +56,17 @@ struct StateMessage {
     size_t device_count = 0;
     std::array<GripState, kMostDevices> grip_list;
     size_t grip_count = 0;
-    std::string_view error;  ///< reported by the service; "" if none
+    std::string_view error;  ///< the error reported by the service; "" if there is none
 };
 
-/// Reads messages. After construction it neither allocates nor throws.
+/// Reads messages. Does not allocate or throw after construction.
 class StateReader {
   public:
     explicit StateReader(size_t most_bytes);
     ~StateReader();
 
-    /// Returns false when the text is not a complete JSON object; `out` is then meaningless.
-    /// Connection::kPadding bytes must be readable after the text.
+    /// Reads a message. Returns false if the text is not a complete JSON object, in which case
+    /// `out` is meaningless. Connection::kPadding bytes must be readable after the text.
     bool read(std::string_view text, StateMessage& out) noexcept;
 
   private:
@@ -72,7 +74,7 @@ class StateReader {
     std::unique_ptr<Impl> impl_;
 };
 
-/// Writes the message of a tick. After construction it neither allocates nor throws.
+/// Writes the message for each tick. Does not allocate or throw after construction.
 class CommandWriter {
   public:
     struct Device {
@@ -81,8 +83,9 @@ class CommandWriter {
     };
     explicit CommandWriter(std::vector<Device> devices);
 
-    /// `forces_D`: by device, finite [N]. `first`: the message also contains this program's name.
-    /// The text is valid until the next call.
+    /// Writes a message with the forces `forces_D`, which are finite, one for each device [N]. If
+    /// `first`, the message also contains this program's name. The text is valid until the next
+    /// call.
     std::string_view write(std::span<const Vec3> forces_D, bool first) noexcept;
 
   private:

@@ -1,4 +1,4 @@
-// Options of an Inverse3 in a rig file.
+// Options for an Inverse3 in a rig file.
 #pragma once
 
 #include <array>
@@ -8,21 +8,21 @@
 
 namespace dihaptic::devices::haply {
 
-/// The service's spelling of the field in a force command: `vector` in version 3.5's documents,
-/// `values` in earlier documents and in clients of that time.
+/// The name that the service uses for the field in a force command: `vector` in the documentation
+/// of version 3.5, `values` in earlier documentation and in clients of that time.
 enum class ForceKey { vector, values };
 constexpr auto enum_names(ForceKey) {
     return std::array{"vector", "values"};
 }
 
 struct Options {
-    std::string device_id;  ///< serial number, hexadecimal, as listed by the service
+    std::string device_id;  ///< hexadecimal serial number, as listed by the service
     std::string url = "ws://localhost:10001/";
     ForceKey force_key = ForceKey::vector;
-    double time_out = 0.02;  ///< time without an answer after which the connection is closed [s]
-    double peak_force = 5;   ///< larger forces are clamped; value not verified [N]
-    std::string verse_grip;  ///< serial number of a wired grip, for the orientation
-    std::string wireless_verse_grip;  ///< serial number of a wireless grip, for the orientation
+    double time_out = 0.02;  ///< after this time without an answer, the connection is closed [s]
+    double peak_force = 5;   ///< larger forces are clamped; the value has not been verified [N]
+    std::string verse_grip;  ///< serial number of a wired grip for the orientation
+    std::string wireless_verse_grip;  ///< serial number of a wireless grip for the orientation
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -49,7 +49,7 @@ struct Options {
     }
 };
 
-/// Reads a device's options; every problem goes to `diagnostics`.
+/// Reads the options of a device, and adds any problems to `diagnostics`.
 Options read_options(const DeviceConfig& config, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::devices::haply

@@ -66,7 +66,7 @@ Survey survey() {
     Survey out;
     try {
         const Hd hd = load_hd("", {});
-        // HD lists no devices: without a name only the first can be found
+        // HD cannot list devices: without a name, only the first device can be found
         const Connection connection(hd, {}, {});
         out.devices.push_back(
             {connection.serial(), connection.model(),

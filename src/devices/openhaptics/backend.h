@@ -1,5 +1,5 @@
-// The backend `openhaptics`: devices of 3D Systems and SensAble (PHANToM Premium, Touch, Omni),
-// through OpenHaptics' HD API; see README.md.
+// The backend `openhaptics`, for devices by 3D Systems and SensAble (PHANToM Premium, Touch, Omni);
+// it uses OpenHaptics' HD API (see README.md).
 #pragma once
 
 #include "devices/device_group.h"

@@ -106,8 +106,8 @@ void Connection::read_info() {
     centre_ = (least + most) / 2 * kPerMm;
     info_.workspace = (most - least) * kPerMm;
     if (options_.joint_angles) {
-        // HD's own origin is the endpoint at joint angles of zero; the box is the part of the
-        // workspace that is symmetric about it
+        // HD's own origin is the endpoint position at joint angles of zero; the box is the part of
+        // the workspace that is symmetric about that origin
         centre_ = Vec3::Zero();
         info_.workspace = 2 * least.cwiseAbs().cwiseMin(most.cwiseAbs()) * kPerMm;
         check_joints();
@@ -130,7 +130,7 @@ void Connection::read_info() {
     }
     const double stiffness = number(kHdMaxStiffness) / kPerMm;
     const double damping = number(kHdMaxDamping) / kPerMm;
-    forget_errors();  // not every device states these two
+    forget_errors();  // not every device states these two values
     if (!info_.max_stiffness && sound(stiffness)) info_.max_stiffness = stiffness;
     if (!info_.max_damping && sound(damping)) info_.max_damping = damping;
     if (!options_.serial.empty() && options_.serial != serial_) {
@@ -141,14 +141,15 @@ void Connection::read_info() {
     }
 }
 
-/// A device without orientation or without a known limit renders no torque.
+/// Reads the limits on orientation and torque. A device that does not measure orientation or has no
+/// known torque limit renders no torque.
 void Connection::read_limits_of_turning() {
     int dof = 0;
     hd_.get_integers(kHdOutputDof, &dof);
     const bool turns = info_.measures_orientation && dof >= 6;
     const double peak = turns ? number(kHdMaxTorque) * kPerMm : 0;
     const double continuous = turns ? number(kHdMaxContinuousTorque) * kPerMm : 0;
-    forget_errors();  // not every device states these
+    forget_errors();  // not every device states these values
     if (!turns && options_.peak_torque) {
         throw Error(place_, "peak_torque", who() + " renders no torque",
                     "Leave it out: torque needs a device with six output degrees of freedom, whose "

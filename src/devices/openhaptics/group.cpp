@@ -10,8 +10,8 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
-/// Times without a call after which the scheduler is abandoned: once it has started (kSilence), and
-/// before that (kBeginning).
+/// Times without a call after which the scheduler is given up: kSilence once it has started,
+/// kBeginning before that.
 constexpr auto kSilence = std::chrono::milliseconds(100);
 constexpr auto kBeginning = std::chrono::seconds(2);
 constexpr auto kLook = std::chrono::milliseconds(5);
@@ -78,7 +78,7 @@ void Group::read(Device& device, Reading& reading) noexcept {
     if (device.connection.info().arm) {
         Vec3 joints = Vec3::Zero();
         hd_.get_doubles(kHdJointAngles, joints.data());
-        reading.joints = {-joints[0], joints[1], joints[2]};  // our sign: turret to the right
+        reading.joints = {-joints[0], joints[1], joints[2]};  // positive to the right here
     }
     if (device.connection.info().measures_orientation) {
         Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
@@ -127,7 +127,7 @@ void Group::do_read(Time now, std::span<Reading> readings) noexcept {
 void Group::do_write(std::span<const Wrench> wrenches_D) noexcept {
     for (size_t i = 0; i < devices_.size(); ++i) {
         Device& device = devices_[i];
-        // outside a tick the scheduler is stopped, and no force acts
+        // outside a tick, the scheduler is stopped and no force acts
         if (!device.framed) continue;
         device.framed = false;
         hd_.make_current(device.connection.handle());
@@ -155,7 +155,7 @@ unsigned Group::on_tick(void* group) noexcept {
     return kHdDone;
 }
 
-/// Returns false if the scheduler stopped calling.
+/// Waits until the ticks have ended. Returns false if the scheduler stopped calling.
 bool Group::wait_for_end() {
     uint64_t seen = 0;
     auto since = Steady::now();
@@ -166,8 +166,8 @@ bool Group::wait_for_end() {
         if (ticks != seen) since = now;
         seen = ticks;
         Turn free = Turn::free;
-        // a tick that blocks is left to the servo's watchdog: turn_ stays `inside`, so that no tick
-        // can start meanwhile
+        // if a tick is blocked, the servo's watchdog deals with it: turn_ stays `inside`, so that
+        // no other tick can start in the meantime
         if (now - since > (seen == 0 ? Steady::duration(kBeginning) : Steady::duration(kSilence)) &&
             turn_.compare_exchange_strong(free, Turn::closed))
             return false;
@@ -188,8 +188,8 @@ void Group::do_pace(const std::function<bool()>& tick) {
     for (Device& device : devices_) device.framed = false;
     if (!silent_) return;
     take_errors();
-    // for an orderly end the servo continues ticking and recording until it ends the session; it
-    // finds that no device answers
+    // for an orderly end, the servo keeps ticking and recording until it finds that no device
+    // answers and ends the session
     while (tick()) std::this_thread::sleep_for(std::chrono::duration<double>(tick_));
 }
 

@@ -1,9 +1,9 @@
-// A group of devices served in one callback of HD's scheduler, which paces the tick: each device's
-// frame starts and its state is read, the tick computes, then each device's force is set and its
-// frame ends.
+// A group of devices served in one callback of HD's scheduler, which paces the tick. First, each
+// device's frame is started and its state is read; then the tick is computed; finally, each
+// device's force is set and its frame is ended.
 //
 // D has HD's axes (x right, y up, z toward the person). Its origin is the middle of the usable
-// workspace that the device states, or HD's own origin if the device's joint angles are used.
+// workspace stated by the device or, if the device's joint angles are used, HD's own origin.
 #pragma once
 
 #include <array>
@@ -15,20 +15,23 @@
 
 namespace dihaptic::devices::openhaptics {
 
-/// Options of a device in the rig file.
+/// Options for a device in the rig file.
 struct Options {
-    std::string name;            ///< name in the driver's configuration; "": the first device found
-    std::string serial;          ///< required serial number; "": any
-    std::string library;         ///< path of libHD.so, if the system does not find it
-    bool encoder_reset = false;  ///< reset at each activation, with the arm in its neutral pose
-    bool orientation = true;     ///< whether orientation is used, if measured
-    std::optional<double> peak_torque;  ///< below the device's own, or used if it has none [N*m]
-    std::optional<double> continuous_torque;  ///< replaces the device's value [N*m]
+    /// Name in the driver's configuration; if empty, the first device found is used.
+    std::string name;
+    std::string serial;   ///< required serial number; empty if any will do
+    std::string library;  ///< path of libHD.so, if the system does not find it
+    /// Whether the encoders are reset at each activation, with the arm in its neutral pose.
+    bool encoder_reset = false;
+    bool orientation = true;  ///< whether orientation is used if the device measures it
+    /// A value below the device's own limit, or the limit itself if the device states none [N*m].
+    std::optional<double> peak_torque;
+    std::optional<double> continuous_torque;  ///< replaces the value that the device states [N*m]
     bool joint_angles = false;                ///< whether a Premium's joint angles are read, for a
                                               ///< calibration
-    model::PhantomLinks links;                ///< for a device whose joint angles are read
-    std::optional<double> max_stiffness;      ///< replaces the device's value [N/m]
-    std::optional<double> max_damping;        ///< replaces the device's value [N*s/m]
+    model::PhantomLinks links;                ///< link lengths, if joint angles are read
+    std::optional<double> max_stiffness;      ///< replaces the value that the device states [N/m]
+    std::optional<double> max_damping;        ///< replaces the value that the device states [N*s/m]
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -68,10 +71,10 @@ struct Options {
     frame::DeviceInfo info() const;
 };
 
-/// An initialised device; the destructor disables it.
+/// An initialised device, which the destructor disables.
 class Connection {
   public:
-    /// Initialises the device. Throws Error, for the device's place in the rig file.
+    /// Initialises the device. Throws Error, at the device's place in the rig file, if that fails.
     Connection(const Hd& hd, const DeviceConfig& config, const Options& options);
     ~Connection();
     Connection(Connection&& other) noexcept;
@@ -79,7 +82,7 @@ class Connection {
 
     HdHandle handle() const { return handle_; }
     const Options& options() const { return options_; }
-    /// "the thumb's device 'PHANToM 1' (PHANToM Premium 1.0, serial 40123)".
+    /// A description such as "the thumb's device 'PHANToM 1' (PHANToM Premium 1.0, serial 40123)".
     std::string who() const;
     const std::string& model() const { return model_; }
     const std::string& serial() const { return serial_; }
@@ -87,10 +90,10 @@ class Connection {
     const Vec3& centre() const { return centre_; }
     const frame::DeviceInfo& info() const { return info_; }
 
-    /// Calibrates the device if it can do so by itself. Throws Error if its positions are still
-    /// meaningless.
+    /// Calibrates the device if it can calibrate itself. Throws Error if its positions are still
+    /// meaningless afterwards.
     void calibrate() const;
-    /// Empties the stack of errors; throws Error for the newest of them.
+    /// Empties the error stack, and throws Error for the newest error on it, if there is any.
     void check(const std::string& doing, const char* key) const;
 
   private:
@@ -122,8 +125,8 @@ class Group final : public DeviceGroup {
   private:
     struct Device {
         Connection connection;
-        bool framed = false;   // whether its frame has started
-        uint32_t trouble = 0;  // Status bits until the next activation
+        bool framed = false;   // whether the device's frame has been started
+        uint32_t trouble = 0;  // Status bits that remain set until the next activation
         bool dropped = false;  // whether the device cut its force in this tick
         ForceDrops drops;
         unsigned said = kHdSuccess;  // the device's last error
@@ -144,7 +147,8 @@ class Group final : public DeviceGroup {
     std::vector<Device> devices_;
     double tick_;  // [s]
 
-    // for pace(): whether the scheduler's thread may start a tick, is in one, or may start no more
+    // For pace(): `free` if the scheduler's thread may start a tick, `inside` if it is in one, and
+    // `closed` if it may start no more.
     enum class Turn : int { free, inside, closed };
     const std::function<bool()>* paced_ = nullptr;
     std::atomic<Turn> turn_{Turn::closed};

@@ -1,5 +1,5 @@
-// Our own declarations of the part of OpenHaptics' HD API (libHD) that we use. Units are mm, mm/s,
-// N, mN*m and rad; axes are x right, y up, z toward the person.
+// Dihaptic's own declarations of the parts of OpenHaptics' HD API (libHD) that it uses. Units are
+// mm, mm/s, N, mN*m and rad. The x axis points to the right, y upwards, and z toward the person.
 #pragma once
 
 #include "base/library.h"
@@ -11,8 +11,8 @@ constexpr double kPerMm = 1e-3;  // [m]
 using HdHandle = unsigned;
 constexpr HdHandle kNoHandle = 0xFFFFFFFF;
 
-/// The newest error in the stack shared by all threads. A stack that never empties must not block
-/// the program, so at most kMostErrors are taken at a time.
+/// The newest error on the stack that all threads share. At most kMostErrors errors are taken at a
+/// time, so that a stack that never becomes empty does not block the program.
 struct HdErrorInfo {
     unsigned code;  ///< HdError
     int internal;
@@ -26,19 +26,19 @@ enum HdCallbackCode : unsigned { kHdDone = 0, kHdContinue = 1 };
 constexpr unsigned short kHdHighestPriority = 65535;
 
 enum HdValue : unsigned {
-    kHdButtons = 0x2000,          // int, one bit each
+    kHdButtons = 0x2000,          // int, one bit per button
     kHdPosition = 0x2050,         // 3 doubles
     kHdVelocity = 0x2051,         // 3 doubles
-    kHdTransform = 0x2052,        // 16 doubles, column after column
+    kHdTransform = 0x2052,        // 16 doubles, in column-major order
     kHdAngularVelocity = 0x2053,  // 3 doubles
     kHdJointAngles = 0x2100,      // 3 doubles: turret to the left, thigh up, shin up [rad]
-    kHdVersion = 0x2500,          // string, like the next ones
+    kHdVersion = 0x2500,          // a string, like the next two values
     kHdModel = 0x2501,
     kHdSerial = 0x2504,
-    kHdUsableWorkspace = 0x2551,   // 6 doubles: minima, maxima
+    kHdUsableWorkspace = 0x2551,   // 6 doubles: the three minima, then the three maxima
     kHdInputDof = 0x2553,          // int
     kHdOutputDof = 0x2554,         // int
-    kHdCalibrationStyle = 0x2555,  // int: sum of HdCalibrationStyle
+    kHdCalibrationStyle = 0x2555,  // int: a sum of HdCalibrationStyle values
     kHdMaxStiffness = 0x2602,      // double [N/mm]
     kHdMaxForce = 0x2603,          // double
     kHdMaxContinuousForce = 0x2604,
@@ -46,7 +46,7 @@ enum HdValue : unsigned {
     kHdMaxTorque = 0x2622,   // double
     kHdMaxContinuousTorque = 0x2623,
     kHdForce = 0x2700,   // 3 doubles
-    kHdTorque = 0x2701,  // 3 doubles, about the same axes
+    kHdTorque = 0x2701,  // 3 doubles, about the same axes as the force
 };
 
 enum HdCapability : unsigned { kHdForceOutput = 0x4000, kHdForceRamping = 0x4002 };
@@ -77,22 +77,22 @@ enum HdError : unsigned {
     kHdInvalidLicence = 0x600,
 };
 
-/// The meaning of an error for a session.
+/// What an error means for a session.
 enum class HdErrorClass {
     none,
-    force,      ///< the device cut its force: write zero, then switch force on again
-    scheduler,  ///< the device, or the loop, is lost
+    force,      ///< the device cut its force, which can be switched on again after writing zero
+    scheduler,  ///< the device or the loop is lost
     device,     ///< any other error
 };
 HdErrorClass error_class(unsigned code);
-/// An error's name, and the remedy.
+/// The name of an error, and the remedy.
 struct HdErrorText {
     std::string what;
     std::string remedy;
 };
 HdErrorText describe_error(unsigned code);
 
-/// The library's functions.
+/// The functions of the library.
 struct Hd {
     HdHandle (*init_device)(const char* name) = nullptr;
     void (*disable_device)(HdHandle) = nullptr;
@@ -115,10 +115,11 @@ struct Hd {
     unsigned long (*schedule)(HdCallback, void* data, unsigned short priority) = nullptr;
     void (*unschedule)(unsigned long) = nullptr;
 
-    std::string file;  ///< from which the functions were loaded
+    std::string file;  ///< the file from which the functions were loaded
 };
 
-/// Loads the library from `path`, or as found by the system if `path` is empty. Throws Error.
+/// Loads the library from `path` or, if `path` is empty, from wherever the system finds it. Throws
+/// Error if it cannot be loaded.
 Hd load_hd(const std::string& path, const Place& place);
 
 }  // namespace dihaptic::devices::openhaptics

@@ -23,7 +23,7 @@ class ReplayGroup final : public DeviceGroup {
 constexpr const char* kNoRecording = "devices of the backend 'replay' need a recording";
 constexpr const char* kRemedy = "Use dihaptic replay SESSION, or backend: simulated.";
 
-/// A rig file contains no recording.
+/// Throws Error, because a rig file contains no recording.
 std::vector<frame::DeviceInfo> describe(const std::vector<DeviceConfig>& configs,
                                         const Context& context, Diagnostics& diagnostics) {
     for (const DeviceConfig& config : configs)

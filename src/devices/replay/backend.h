@@ -1,4 +1,4 @@
-// The backend `replay`: devices that repeat a recording. Forces have no effect.
+// The backend `replay`, whose devices repeat a recording. Forces have no effect.
 #pragma once
 
 #include "devices/device_group.h"

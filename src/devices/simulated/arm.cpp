@@ -6,10 +6,10 @@
 namespace dihaptic::devices::simulated {
 namespace {
 
-/// Viscous friction of a Premium's joint; a value tuned by others [N*m*s].
+/// Viscous friction of each joint of a Premium, a value tuned by others [N*m*s].
 constexpr double kDamping = 0.0005;
 
-/// Displacement of the endpoint per radian of each joint in the reset pose [m].
+/// Displacement of the endpoint per radian of rotation of each joint, in the reset pose [m].
 Vec3 levers(const model::PhantomLinks& links) {
     return {links.thigh, links.thigh, links.shin};
 }
@@ -24,7 +24,7 @@ Arm::Arm(const Options& options, double carried)
       step_(options.position_step * levers(links_).cwiseInverse()),
       peak_(options.peak_force * levers(links_)),
       friction_(options.friction * levers(links_)) {
-    // `friction: 0` also removes viscous friction
+    // `friction: 0` also turns off viscous friction
     dynamics_.damping = options.friction > 0 ? kDamping : 0;
 }
 
@@ -82,7 +82,7 @@ void Arm::end_step(double h, const State& sum) noexcept {
             continue;
         }
         rate = 0;
-        // a joint held by friction stays put: undo what it moved within this step
+        // a joint held by friction stays where it was, so its movement within this step is undone
         if (old.rate[i] == 0) state_.q[i] = old.q[i];
     }
     stop_at_limits();
@@ -96,7 +96,7 @@ void Arm::stop_at_limits() noexcept {
         angle = std::clamp(angle, low, high);
     };
     for (int i = 0; i < 3; ++i) stop(state_.q[i], state_.rate[i], limits.low[i], limits.high[i]);
-    // at the limit of the bend the shin yields, as it is lighter than the thigh
+    // at the limit of the bend, the shin yields because it is lighter than the thigh
     double bend = state_.q[1] - state_.q[2];
     double bending = state_.rate[1] - state_.rate[2];
     stop(bend, bending, limits.bend_low, limits.bend_high);

@@ -1,13 +1,14 @@
-// Mechanics of a simulated Premium, joint by joint (model/phantom_arm.h), with a finger of mass m
+// Mechanics of a simulated Premium with all its joints (model/phantom_arm.h) and a finger of mass m
 // at its endpoint:
 //
 //     (M + m J^T J) q'' + C + m J^T dJ/dt q' + G + b q' = J^T f_finger + torques + friction
 //
-// integrated by the classical Runge-Kutta method. The motors' torques J^T f_device use the angles
-// reported by the encoders; an encoder's step is `position_step` at the endpoint in the reset pose.
-// Each motor's torque is limited to the value for the peak force in that pose. Coulomb friction of
-// each joint removes momentum, and holds the joint if it can; an end stop removes all of it.
-// Gravity acts: a Premium is balanced by the weight of its motors, and the remainder is felt.
+// integrated with the classical Runge-Kutta method. The motor torques J^T f_device are computed
+// from the angles reported by the encoders; the resolution of an encoder corresponds to
+// `position_step` at the endpoint in the reset pose. Each motor's torque is limited to the value
+// that the peak force requires in that pose. Coulomb friction in each joint removes momentum, and
+// holds the joint if it can; an end stop removes all of the joint's momentum. Gravity is included:
+// the weight of a Premium's motors balances its arm, and the remaining imbalance can be felt.
 #pragma once
 
 #include "devices/simulated/options.h"
@@ -16,17 +17,17 @@ namespace dihaptic::devices::simulated {
 
 class Arm {
   public:
-    /// `carried`: the finger's mass m [kg].
+    /// `carried` is the mass m of the finger [kg].
     Arm(const Options& options, double carried);
 
-    /// Smallest apparent mass of the endpoint in the reset pose [kg].
+    /// Smallest apparent mass of the endpoint in any direction, in the reset pose [kg].
     static double least_mass(const Options& options);
 
-    /// Puts the endpoint, at rest, as near to p_DH as possible; returns its position there.
+    /// Puts the endpoint, at rest, as close to p_DH as possible, and returns its actual position.
     Vec3 reset(const Vec3& p_DH);
-    /// Sets the motors' torques for this force [N], which they hold until the next call.
+    /// Sets the motor torques that produce this force [N]. They are held until the next call.
     void drive(const Vec3& f_device_D) noexcept;
-    /// Integrates over h [s]; pull(p_DH, v_DH): the finger's force [N].
+    /// Integrates over a time h [s]; pull(p_DH, v_DH) returns the finger's force [N].
     template <class Pull>
     void move(double h, const Pull& pull) noexcept {
         const auto rates = [&](const State& s) noexcept -> State {
@@ -47,7 +48,7 @@ class Arm {
     const Vec3& rate() const { return state_.rate; }
     Vec3 p_DH() const noexcept { return model::phantom_position(links_, state_.q); }
     Vec3 v_DH() const noexcept { return model::phantom_jacobian(links_, state_.q) * state_.rate; }
-    /// Joint angles as reported by the encoders [rad].
+    /// The joint angles as reported by the encoders [rad].
     Vec3 reported() const noexcept;
     bool has_steps() const { return step_.x() > 0; }
     /// Kinetic and potential energy of the arm alone [J].
@@ -73,9 +74,9 @@ class Arm {
     model::PhantomLinks links_;
     model::PhantomDynamics dynamics_;
     double carried_;
-    Vec3 offset_;    // true minus reported angles [rad]
-    Vec3 step_;      // step of the encoders [rad]
-    Vec3 peak_;      // limit of the motors' torques [N*m]
+    Vec3 offset_;    // true angles minus reported angles [rad]
+    Vec3 step_;      // resolution of the encoders [rad]
+    Vec3 peak_;      // limits of the motor torques [N*m]
     Vec3 friction_;  // [N*m]
     Vec3 torques_ = Vec3::Zero();
     State state_;

@@ -28,13 +28,13 @@ Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
     return options;
 }
 
-/// Reads the options of all devices, and checks that they can follow the hand.
+/// Reads the options of all devices, and checks that the devices can follow the hand.
 std::vector<Options> read_options(const std::vector<DeviceConfig>& configs, const Context& context,
                                   Diagnostics& diagnostics) {
     std::vector<Options> options;
     options.reserve(configs.size());
     for (const DeviceConfig& config : configs) options.push_back(read_options(config, diagnostics));
-    if (context.driver == nullptr) return options;  // a rig file alone, without a hand
+    if (context.driver == nullptr) return options;  // only the rig file is read, without a hand
     for (const Options& option : options) {
         if (Plant::holds(option, context.impedance)) continue;
         diagnostics.error(
@@ -51,8 +51,8 @@ std::vector<Options> read_options(const std::vector<DeviceConfig>& configs, cons
     return options;
 }
 
-/// A hand whose fingers appear in the world scaled by s, and which aims accordingly: from D's
-/// origin it moves 1/s of the way to a target.
+/// A hand whose fingers appear in the world scaled by s, and which aims accordingly: to reach a
+/// target, it moves 1/s of the way from D's origin to the target.
 class AimingDriver final : public hand::Driver {
   public:
     AimingDriver(const std::vector<DeviceConfig>& configs, const hand::Driver& seen) : seen_(seen) {
@@ -81,7 +81,7 @@ class AimingDriver final : public hand::Driver {
 
 struct Device {
     Options options;
-    Pose X_WD;  // true pose of D: that of the rig file, misplaced according to the options
+    Pose X_WD;  // true pose of D: its pose in the rig file, misplaced according to the options
     Plant plant;
     Encoder encoder;
     JointEncoder joints;
@@ -196,7 +196,7 @@ class SimulatedGroup final : public DeviceGroup {
     std::unique_ptr<AimingDriver> driver_;
     std::vector<Device> devices_;
     std::atomic<bool> stopped_{false};
-    bool begins_ = false;  // the plants start at the next reading, whatever its time
+    bool begins_ = false;  // whether the plants start at the next reading, whatever its time
 };
 
 std::vector<frame::DeviceInfo> describe(const std::vector<DeviceConfig>& configs,

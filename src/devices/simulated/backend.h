@@ -1,4 +1,5 @@
-// The backend `simulated`: devices held by the simulated hand, on which experiments are rehearsed.
+// The backend `simulated`, whose devices are held by the simulated hand. Experiments are rehearsed
+// with them.
 #pragma once
 
 #include "devices/device_group.h"

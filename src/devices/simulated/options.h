@@ -1,4 +1,4 @@
-// Options of a simulated device in a rig file, and its presets.
+// Options for a simulated device in a rig file, and the presets of these options.
 #pragma once
 
 #include <array>
@@ -12,17 +12,18 @@
 
 namespace dihaptic::devices::simulated {
 
-/// plant: a bare mass, as used by the benchmarks. premium_1_0: SensAble PHANToM Premium 1.0, from
-/// its data sheet. touch: 3D Systems Touch, which measures orientation. sigma_7: Force Dimension
-/// sigma.7 without its gripper, which also renders torque. The largest stiffness and damping of the
-/// three, and the sigma.7's force and torque, are CHAI3D 3.3's values; masses, inertias, friction
-/// and encoder steps of the last two are estimates.
+/// The device that is simulated. plant: a bare mass, as used by the benchmarks. premium_1_0:
+/// SensAble PHANToM Premium 1.0, according to its data sheet. touch: 3D Systems Touch, which
+/// measures orientation. sigma_7: Force Dimension sigma.7 without its gripper, which also renders
+/// torque. The largest stiffness and damping of these three devices, and the force and torque of
+/// the sigma.7, are taken from CHAI3D 3.3; the masses, inertias, friction and encoder resolutions
+/// of the last two are estimates.
 enum class Preset { plant, premium_1_0, touch, sigma_7 };
 constexpr auto enum_names(Preset) {
     return std::array{"plant", "premium_1_0", "touch", "sigma_7"};
 }
 
-/// point: one mass at the endpoint, equal along all axes. phantom: the links and joints of a
+/// point: a single mass at the endpoint, equal along all axes. phantom: the links and joints of a
 /// Premium.
 enum class Mechanics { point, phantom };
 constexpr auto enum_names(Mechanics) {
@@ -30,36 +31,37 @@ constexpr auto enum_names(Mechanics) {
 }
 
 struct Options {
-    std::string serial;             ///< reported by the device
+    std::string serial;             ///< serial number that the device reports
     Preset preset = Preset::plant;  ///< sets all other options, each of which may also be given
     double mass = 0.075;            ///< apparent mass at the endpoint [kg]
     double peak_force = 8.5;        ///< larger forces are clamped [N]
     std::optional<double> continuous_force;  ///< force that the motors can sustain [N]
-    double position_step = 0;                ///< step of the encoders, at the endpoint; 0: exact
-                                             ///< [m]
+    double position_step = 0;                ///< resolution at the endpoint; 0 if exact [m]
     double friction = 0;                     ///< Coulomb friction at the endpoint [N]
-    int delay_ticks = 0;                     ///< ticks from writing a force until it acts
-    int velocity_window = 8;  ///< number of ticks for computing velocity if positions have steps
-    int buttons = 0;          ///< held down by the simulated hand, one bit each
-    std::optional<Vec3> workspace;  ///< edges of the reachable box around D's origin [m]
+    int delay_ticks = 0;                     ///< number of ticks until a written force acts
+    int velocity_window = 8;  ///< number of ticks for the velocity if positions are rounded
+    int buttons = 0;          ///< the buttons that the simulated hand holds down, one bit each
+    std::optional<Vec3> workspace;  ///< edge lengths of the reachable box around D's origin [m]
     std::optional<double>
-        max_stiffness;  ///< largest stable stiffness, according to its manufacturer [N/m]
+        max_stiffness;  ///< largest stable stiffness according to the manufacturer [N/m]
     std::optional<double>
-        max_damping;  ///< largest stable damping, according to its manufacturer [N*s/m]
+        max_damping;  ///< largest stable damping according to the manufacturer [N*s/m]
 
     Mechanics arm = Mechanics::point;
-    model::PhantomLinks links;         ///< phantom: lengths; those of a 1.0 are not verified [m]
-    Vec3 joint_offset = Vec3::Zero();  ///< phantom: true minus reported angles, e.g. after a reset
-                                       ///< off the standard configuration [rad]
-    Vec3 misplaced_by = Vec3::Zero();  ///< shift of D from its position in the rig, in D [m]
-    Vec3 misplaced_turn = Vec3::Zero();  ///< turn of D, about its x, then y, then z [rad]
+    model::PhantomLinks links;  ///< phantom: link lengths; not verified for the 1.0 [m]
+    /// For phantom: true minus reported joint angles, e.g. after a reset away from the standard
+    /// configuration [rad].
+    Vec3 joint_offset = Vec3::Zero();
+    Vec3 misplaced_by = Vec3::Zero();  ///< displacement of D from its position in the rig, in D [m]
+    Vec3 misplaced_turn = Vec3::Zero();  ///< rotation of D about its x, then y, then z axis [rad]
 
     bool orientation =
-        false;  ///< whether orientation is measured: otherwise the endpoint does not turn
-    double peak_torque = 0;  ///< larger torques are clamped; 0: the device renders none [N*m]
+        false;  ///< whether orientation is measured; if not, the endpoint does not rotate
+    double peak_torque = 0;  ///< larger torques are clamped; 0 if the device has none [N*m]
     std::optional<double> continuous_torque;  ///< torque that the motors can sustain [N*m]
-    double inertia = 1e-4;  ///< of the handle about its endpoint, equal about all axes [kg*m^2]
-    double angle_step = 0;  ///< step of the gimbal's three encoders; 0: exact [rad]
+    /// Moment of inertia of the handle about its endpoint, equal about all axes [kg*m^2].
+    double inertia = 1e-4;
+    double angle_step = 0;  ///< resolution of the gimbal's three encoders; 0 if exact [rad]
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -98,7 +100,7 @@ struct Options {
         visit_turning(v);
     }
 
-    /// Pose of the true D in the rig file's D.
+    /// Pose of the true D relative to the D of the rig file.
     Pose misplaced() const { return {rotation_xyz(misplaced_turn), misplaced_by}; }
 
     static constexpr int kMostWindow = 64;

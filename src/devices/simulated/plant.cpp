@@ -129,7 +129,8 @@ void Plant::move_point(const hand::FingerTarget& target, const Vec3& f_device, d
 }
 
 void Plant::move_arm(const hand::FingerTarget& target, const Vec3& f_device, double h) noexcept {
-    // h advances the finger's own state, once a step; the calls with 0 only compute its pull
+    // the call with h advances the finger's own state, once per step; the calls with 0 only compute
+    // its pull
     finger_.pull(target, p_, v_, f_device, h);
     arm_->move(h, [&](const Vec3& p_DH, const Vec3& v_DH) noexcept -> Vec3 {
         return X_WD_.R.conjugate() *

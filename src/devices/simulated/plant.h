@@ -1,15 +1,16 @@
-// Mechanics of a simulated device held by a simulated finger, as one point mass:
+// Mechanics of a simulated device held by a simulated finger, modelled as a single point mass:
 //
 //     m a = f_finger + f_device + f_friction
 //
-// integrated at 10 kHz (semi-implicit Euler). The device's force is held from write to write,
-// clamped to its peak, and acts `delay_ticks` late. Coulomb friction removes up to friction * h of
-// momentum per step and holds the endpoint if it can. If orientation is measured, the endpoint
-// also turns, without friction, with an inertia I equal about all axes:
+// integrated at 10 kHz (semi-implicit Euler). The device's force is held from one write to the
+// next, is clamped to its peak, and acts `delay_ticks` ticks late. Coulomb friction removes up to
+// friction * h of momentum per step and holds the endpoint if it can. If orientation is measured,
+// the endpoint also rotates without friction, with a moment of inertia I that is equal about all
+// axes:
 //
 //     I dw/dt = t_finger + t_device,    R <- exp(h w) R
 //
-// With `arm: phantom` the links and joints of a Premium replace the point (arm.h).
+// With `arm: phantom`, the links and joints of a Premium replace the point mass (arm.h).
 #pragma once
 
 #include <vector>
@@ -26,22 +27,21 @@ class Plant {
     Plant(const Options& options, const hand::Impedance& impedance, const hand::TremorSpec& tremor,
           uint64_t seed, int finger, const hand::Driver& driver, const Pose& X_WD = {});
 
-    /// Whether the integration below converges: with a = k h^2 / m and b = c h / m its
-    /// characteristic polynomial z^2 - (2 - a - b) z + 1 - b has its roots inside the unit circle
-    /// for a + 2 b < 4. k is the stiffness at the device's peak force. Rotation is checked
-    /// likewise.
+    /// Whether the integration below converges. With a = k h^2 / m and b = c h / m, the roots of
+    /// its characteristic polynomial z^2 - (2 - a - b) z + 1 - b lie inside the unit circle if a +
+    /// 2 b < 4. k is the stiffness at the device's peak force. Rotation is checked in the same way.
     static bool holds(const Options& options, const hand::Impedance& impedance);
 
-    /// Puts the endpoint, at rest, at the finger's target at `now`.
+    /// Puts the endpoint, at rest, at the position that the finger aims at at time `now`.
     void begin(Time now) noexcept;
-    /// Integrates up to `now`.
+    /// Integrates up to time `now`.
     void advance(Time now) noexcept;
-    /// Sets the wrench to hold from now on, in world axes; true if it had to be clamped.
+    /// Sets the wrench to be held from now on, in world axes. Returns true if it had to be clamped.
     bool hold(const Wrench& wrench_W) noexcept;
-    /// Sets the force to zero at once, delayed forces included.
+    /// Sets the force to zero at once, including forces that are still delayed.
     void release() noexcept;
 
-    /// The arm; null unless `arm: phantom`.
+    /// The arm; null unless `arm: phantom` is set.
     const Arm* arm() const { return arm_ ? &*arm_ : nullptr; }
     const Vec3& p_WH() const { return p_; }
     const Vec3& v_WH() const { return v_; }
@@ -66,11 +66,12 @@ class Plant {
     Vec3 v_ = Vec3::Zero();
     Quat R_ = Quat::Identity();
     Vec3 w_ = Vec3::Zero();
-    std::vector<Wrench> pending_;  // the last delay_ticks + 1 wrenches; the oldest acts
+    std::vector<Wrench> pending_;  // the last delay_ticks + 1 wrenches, of which the oldest acts
     size_t newest_ = 0;
 };
 
-/// A position as reported by encoders and a driver: in steps, with a velocity from past positions.
+/// A position as reported by encoders and a driver: rounded to the encoders' resolution, with a
+/// velocity computed from past positions.
 class Encoder {
   public:
     explicit Encoder(const Options& options)
@@ -87,7 +88,7 @@ class Encoder {
     Past<Vec3> past_;
 };
 
-/// Like Encoder, for an arm, whose joints have an encoder each.
+/// Like Encoder, for an arm with an encoder in each joint.
 class JointEncoder {
   public:
     explicit JointEncoder(const Options& options) : past_(options.velocity_window) {}
@@ -98,7 +99,7 @@ class JointEncoder {
     Past<Vec3> past_;
 };
 
-/// Like Encoder, for an orientation; the gimbal has an encoder for each angle of rotation_xyz().
+/// Like Encoder, for an orientation. The gimbal has one encoder for each angle of rotation_xyz().
 class Gimbal {
   public:
     explicit Gimbal(const Options& options)

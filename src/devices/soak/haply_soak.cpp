@@ -1,5 +1,5 @@
-// Sends a minute of commands to a fake Haply service at each rate, on the real clock: none may be
-// lost or doubled. Prints the duration of an answer.
+// Sends commands to a fake Haply service for a minute at each rate, on the real clock. No command
+// may be lost or doubled. Prints how long an answer takes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ class StillDriver final : public hand::Driver {
     std::vector<Phase> phases_;
 };
 
-/// The service's rate [Hz]; 0: it answers at once.
+/// The service's rate [Hz]; at 0, it answers at once.
 class HaplySoak : public ::testing::TestWithParam<double> {};
 
 TEST_P(HaplySoak, LosesAndDoublesNoCommandInAMinute) {

@@ -1,4 +1,4 @@
-// Tests that every backend in the table keeps the contract of device_group.h.
+// Tests that every backend in the table fulfils the contract of device_group.h.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -114,7 +114,7 @@ TEST_P(Conformance, WhatCanBeStoppedCanBeFromAnyThreadAndStaysSoUntilActivated) 
         group->write(wrenches);
         now += std::chrono::milliseconds(1);
     };
-    // distance by which 2 N push the hand in 50 ms, once it is still [m]
+    // distance that a force of 2 N pushes the hand in 50 ms, starting from rest [m]
     const auto pushed = [&] {
         for (int i = 0; i < 2000; ++i) tick({2, Wrench{}});
         const Vec3 begin = readings[0].p_DH;
@@ -131,7 +131,7 @@ TEST_P(Conformance, WhatCanBeStoppedCanBeFromAnyThreadAndStaysSoUntilActivated) 
     group->deactivate();
     group->activate();
     EXPECT_GT(pushed(), 1e-3);
-    // stops while another thread is in the cycle (the thread sanitizer checks this)
+    // stops the group while another thread is in a tick (the thread sanitizer checks this)
     std::thread stopper([&] { group->stop(); });
     for (int i = 0; i < 30; ++i) tick(forces);
     stopper.join();
@@ -152,7 +152,7 @@ TEST_P(Conformance, PacesUntilItIsToldToEndAndThenAgain) {
         });
         EXPECT_EQ(ticks, 20);
         EXPECT_EQ(readings[0].status, 0u);
-        group->write(none);  // like a servo between runs, with zero force
+        group->write(none);  // a zero force, as written by a servo between runs
     }
     group->deactivate();
 }
@@ -178,7 +178,7 @@ TEST_P(Conformance, ItsOptionsSayNothingElseThanItsDevicesDo) {
         if (!said.serial.empty()) {
             EXPECT_EQ(said.serial, is.serial);
         }
-        // either it is complete, or it lacks only values that an open device reports
+        // the information is either complete or lacks only values that an open device reports
         if (std::isfinite(said.peak_force)) {
             EXPECT_EQ(said, is);
         }

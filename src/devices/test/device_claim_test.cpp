@@ -1,4 +1,4 @@
-// Tests that a device has one owner at a time.
+// Tests that a device has only one owner at a time.
 #include "devices/device_claim.h"
 #include "base/number.h"
 
@@ -11,7 +11,7 @@
 namespace dihaptic::devices::device_claim_test {
 namespace {
 
-/// A device used by no other test.
+/// A device that no other test uses.
 frame::DeviceInfo device(const std::string& serial = number_text(getpid())) {
     frame::DeviceInfo info;
     info.model = "Made up";

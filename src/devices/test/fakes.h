@@ -1,4 +1,4 @@
-// Puts simulated devices behind a fake of the manufacturer's software, for each real backend.
+// For each real backend, puts simulated devices behind a fake of the manufacturer's software.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace dihaptic::devices {
 
-/// Null for a backend that is not real.
+/// Returns the stand-in for a backend, or null if the backend is not real.
 inline const StandIn* find_stand_in(const std::string& backend) {
     const auto all = stand_ins();
     const auto found = std::find_if(all.begin(), all.end(),
@@ -17,8 +17,8 @@ inline const StandIn* find_stand_in(const std::string& backend) {
     return found == all.end() ? nullptr : &*found;
 }
 
-/// Makes fake devices whose handles move like simulated ones, and the backend's group on them, if
-/// the fake is a library. `context.driver` must outlive the group.
+/// Makes fake devices whose handles move like simulated ones and, if the fake is a library, the
+/// backend's group for these devices. `context.driver` must outlive the group.
 inline std::unique_ptr<DeviceGroup> make_behind(const std::string& backend,
                                                 const std::vector<simulated::Options>& options,
                                                 std::vector<DeviceConfig> configs,

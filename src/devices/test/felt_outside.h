@@ -1,11 +1,11 @@
-// Data between the manufacturers' fake libraries and a test in another process, which runs and
-// kills the whole program and checks whether a hand is still pushed.
+// Data shared by the manufacturers' fake libraries and a test in another process. The test runs and
+// kills the whole program, and checks whether a device still pushes the hand.
 //
-// DIHAPTIC_FAKE_FELT names a file that is mapped, with a Felt for each device. The data that a
-// process leaves there when it dies show what its devices would continue to do. DIHAPTIC_FAKE_PUSH
-// is "x y z": the position to which the handles go from D's origin within half a second, and where
-// they stay [m]. DIHAPTIC_FAKE_FAILS is "hangs 2" or "crashes 2": the library's failure 2 s after
-// its first reading.
+// DIHAPTIC_FAKE_FELT names a memory-mapped file that contains a Felt for each device. The data that
+// a process leaves there when it dies show what its devices would continue to do.
+// DIHAPTIC_FAKE_PUSH is "x y z": the position to which the handles go from D's origin within half a
+// second, and where they stay [m]. DIHAPTIC_FAKE_FAILS is e.g. "hangs 2" or "crashes 2": the
+// library hangs or crashes 2 s after its first reading.
 #pragma once
 
 #include <fcntl.h>
@@ -25,9 +25,9 @@ namespace dihaptic::devices {
 
 struct Felt {
     double force = 0;     ///< force that acts on the hand [N]
-    double told_at = 0;   ///< time of the device's last force command, on CLOCK_MONOTONIC [s]
-    double watchdog = 0;  ///< delay until its firmware then ends the force; 0: never [s]
-    double gone_at = 0;   ///< time at which its force last became zero, on CLOCK_MONOTONIC [s]
+    double told_at = 0;   ///< time of the last force command, on CLOCK_MONOTONIC [s]
+    double watchdog = 0;  ///< the firmware ends the force after this time; 0 if never [s]
+    double gone_at = 0;   ///< time at which the force last became zero, on CLOCK_MONOTONIC [s]
     double opened = 0;    ///< number of times that the device was opened
 };
 
@@ -46,7 +46,7 @@ class FeltOutside {
         if (at != MAP_FAILED) felt_ = static_cast<Felt*>(at);
     }
 
-    /// Shows the acting force. `told`: whether the device just got a force command.
+    /// Shows the force that acts. `told` says whether the device has just received a force command.
     void show(size_t device, const Vec3& force, bool told) noexcept {
         if (felt_ == nullptr || device >= kDevices) return;
         Felt& felt = felt_[device];
@@ -69,7 +69,7 @@ class FeltOutside {
     Felt* felt_ = nullptr;
 };
 
-/// Called with each reading: carries out DIHAPTIC_FAKE_FAILS.
+/// Called with each reading; makes the library fail as DIHAPTIC_FAKE_FAILS requests.
 inline void fail_as_asked() {
     static const char* const text = std::getenv("DIHAPTIC_FAKE_FAILS");
     if (text == nullptr) return;
@@ -83,7 +83,7 @@ inline void fail_as_asked() {
     while (what == "hangs") pause();
 }
 
-/// The hand for DIHAPTIC_FAKE_PUSH; null if this is not set.
+/// The hand that DIHAPTIC_FAKE_PUSH describes; null if the variable is not set.
 inline Hand pushing_hand() {
     const char* const text = std::getenv("DIHAPTIC_FAKE_PUSH");
     if (text == nullptr) return {};

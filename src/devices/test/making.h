@@ -1,5 +1,5 @@
-// Shared by the tests of manufacturers' backends: makes devices from options as in rig files, and
-// catches the message of a failure.
+// Functions shared by the tests of manufacturers' backends, which make devices from options like
+// those in rig files, and catch the message of a failure.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,7 +8,8 @@
 
 namespace dihaptic::devices {
 
-/// Makes the devices of thumb, index and middle finger; `options`: YAML text for each.
+/// Makes the devices of the thumb, index and middle finger. `options` contains the YAML text for
+/// each device.
 inline std::unique_ptr<DeviceGroup> make_devices(const Backend& backend,
                                                  const std::vector<std::string>& options,
                                                  const std::string& library, double tick = 1e-3) {
@@ -25,7 +26,7 @@ inline std::unique_ptr<DeviceGroup> make_devices(const Backend& backend,
     return backend.make(configs, context);
 }
 
-/// The message of the Error that `call` throws.
+/// Returns the message of the Error that `call` throws.
 template <class Call>
 std::string told(const Call& call) {
     try {

@@ -10,7 +10,7 @@
 
 namespace dihaptic::devices {
 
-/// `configs`: of simulated devices. `context.driver` must outlive the result.
+/// `configs` are the configurations of simulated devices. `context.driver` must outlive the result.
 inline Hand plant_hand(const std::vector<DeviceConfig>& configs, const Context& context) {
     const std::vector<simulated::Options> options = options_of(configs);
     struct Device {

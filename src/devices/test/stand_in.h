@@ -1,5 +1,6 @@
-// The tests' devices for a real backend: simulated devices behind a fake of its manufacturer's
-// software. Each real backend's folder has its own in test/stand_in.h; fakes.h lists them.
+// Devices with which a real backend is tested: simulated devices behind a fake of the
+// manufacturer's software. The folder of each real backend defines them in test/stand_in.h; fakes.h
+// lists them all.
 #pragma once
 
 #include <memory>
@@ -12,14 +13,15 @@ namespace dihaptic::devices {
 struct StandIn {
     const char* backend;
     struct Made {
-        std::vector<DeviceConfig> configs;  ///< configurations for the backend
-        std::shared_ptr<void> service;      ///< must outlive the devices; null for a library
+        std::vector<DeviceConfig> configs;  ///< configurations of the devices, for the backend
+        std::shared_ptr<void> service;      ///< the fake service; must outlive the devices
     };
-    /// `simulated`: configurations of simulated devices. `context.driver` must outlive them.
+    /// `simulated` are the configurations of simulated devices. `context.driver` must outlive the
+    /// devices.
     Made (*make)(std::vector<DeviceConfig> simulated, const Context& context);
 };
 
-/// The options of simulated devices. Throws Error.
+/// The options of simulated devices. Throws Error if they are invalid.
 inline std::vector<simulated::Options> options_of(const std::vector<DeviceConfig>& configs) {
     std::vector<simulated::Options> out(configs.size());
     Diagnostics diagnostics;

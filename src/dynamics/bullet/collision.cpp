@@ -11,24 +11,25 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Bodies may leave this cube; the broadphase then finds more pairs than necessary.
+/// Bodies may leave this cube, but the broadphase then finds more pairs than necessary.
 constexpr double kWorldHalfExtent = 10.0;  // [m]
-/// Pairs are found this far before they touch.
+/// Pairs of bodies are found at this distance before they touch.
 constexpr double kApproach = 3e-3;  // [m]
-/// Bullet finds contacts of hulls with many edges this far before they touch, and farther for
-/// bodies that could approach by more in the step.
+/// Bullet finds contacts between hulls with many edges at this distance before the hulls touch, and
+/// at a larger distance if the bodies could approach each other by more in the step.
 constexpr double kHullMargin = 2e-3;      // [m]
 constexpr double kMostHullMargin = 5e-2;  // [m]
 
-/// The search for bodies that enter each other makes strides no longer than this, and no longer
-/// than half of the combined thickness of both, so that no body can enter and leave unseen [m].
+/// Maximum stride in the search for bodies that enter each other. A stride is also no longer than
+/// half of the combined thickness of the two bodies, so that no body can enter and leave the other
+/// unseen [m].
 constexpr double kStride = 2e-3;
 constexpr double kMostStrides = 256;
 
-/// Cost of a stride of two shapes [visits]: the number of axes that may separate polyhedra, times
-/// vertices.
+/// Cost of one stride for two shapes [visits]: the number of potential separating axes between
+/// polyhedra, times the number of vertices.
 int64_t stride_visits(const CollisionPart& a, const CollisionPart& b) {
-    constexpr int64_t kFewest = 100;  // of two boxes, and of round shapes
+    constexpr int64_t kFewest = 100;  // for two boxes, and for round shapes
     constexpr int64_t kProductsPerVisit = 20;
     const Polyhedron* p = a.polyhedron.get();
     const Polyhedron* q = b.polyhedron.get();
@@ -39,7 +40,7 @@ int64_t stride_visits(const CollisionPart& a, const CollisionPart& b) {
     return std::max(kFewest, products / kProductsPerVisit);
 }
 
-/// Largest speed of a point of a body's part due to rotation; the body's centre may lie anywhere
+/// Largest speed due to rotation of any point of a body's part; the body's centre may lie anywhere
 /// [m/s].
 double turning(const btCollisionObject& body, const btCollisionShape& shape,
                const btTransform& X_WS) {
@@ -56,7 +57,7 @@ double turning(const btCollisionObjectWrapper& part) {
     return turning(*part.getCollisionObject(), *part.getCollisionShape(), part.getWorldTransform());
 }
 
-/// Moves a body for a time t with its present velocities.
+/// Moves a body for a time t at its current velocities.
 void move_on(btRigidBody& body, const btTransform& from, double t) {
     btTransform to;
     btTransformUtil::integrateTransform(from, body.getLinearVelocity(), body.getAngularVelocity(),
@@ -64,19 +65,19 @@ void move_on(btRigidBody& body, const btTransform& from, double t) {
     body.setWorldTransform(to);
 }
 
-/// Converts a contact found at time t into an equivalent one at the start of the step,
-/// when body 0 was at from_0 and body 1 at from_1: its gap is such that the present velocities lead
-/// to the gap found at t. Returns whether the gap at t is below -kEntered and these velocities
-/// violate the contact by more than kEntered, given that it removes the fraction `recovery` of a
-/// penetration.
+/// Converts a contact found at time t into an equivalent contact at the start of the step, when
+/// body 0 was at from_0 and body 1 at from_1. The gap of the new contact is such that the current
+/// velocities lead to the gap found at t. Returns whether the gap at t is below -kEntered and these
+/// velocities violate the contact by more than kEntered, given that the fraction `recovery` of a
+/// penetration is removed.
 bool look_back(const btPersistentManifold& manifold, btManifoldPoint& point,
                const btTransform& from_0, const btTransform& from_1, double t, double h,
                double recovery) {
     const btRigidBody& body_0 = *btRigidBody::upcast(manifold.getBody0());
     const btRigidBody& body_1 = *btRigidBody::upcast(manifold.getBody1());
     const btVector3 at = 0.5 * (point.m_positionWorldOnA + point.m_positionWorldOnB);
-    // the chord of the arc of a point about a body's centre is perpendicular to the mean of its
-    // arms at both ends
+    // a point moves on an arc about the body's centre; the chord of this arc is perpendicular to
+    // the mean of the point's arms at its two ends
     const auto mean_arm = [&](const btRigidBody& body, const btTransform& from) {
         const btTransform& to = body.getWorldTransform();
         const btVector3 arm = at - to.getOrigin();
@@ -97,7 +98,7 @@ bool look_back(const btPersistentManifold& manifold, btManifoldPoint& point,
     return entered && share * point.m_distance1 + h * apart < -kEntered;
 }
 
-/// The least gap of a manifold's contacts, none above zero [m].
+/// The smallest gap of a manifold's contacts, or zero if all gaps are positive [m].
 double depth_of(const btPersistentManifold& manifold) {
     double least = 0;
     for (int i = 0; i < manifold.getNumContacts(); ++i)
@@ -105,7 +106,7 @@ double depth_of(const btPersistentManifold& manifold) {
     return least;
 }
 
-/// Whether two touching bodies are soft at their contacts.
+/// Whether the contacts between two touching bodies are soft.
 bool is_soft(const btPersistentManifold& manifold) {
     if (manifold.getNumContacts() == 0) return false;
     const btManifoldPoint& point = manifold.getContactPoint(0);
@@ -118,7 +119,7 @@ btDefaultCollisionConstructionInfo pools(int max_pairs) {
     btDefaultCollisionConstructionInfo info;
     info.m_customCollisionAlgorithmMaxElementSize = 256;
     info.m_defaultMaxPersistentManifoldPoolSize = max_pairs;
-    info.m_defaultMaxCollisionAlgorithmPoolSize = max_pairs + 1;  // 1 more for find_entered()
+    info.m_defaultMaxCollisionAlgorithmPoolSize = max_pairs + 1;  // 1 extra for find_entered()
     return info;
 }
 
@@ -138,7 +139,7 @@ Collision::Collision(int max_parts, int max_pairs)
                   btVector3(kWorldHalfExtent, kWorldHalfExtent, kWorldHalfExtent),
                   static_cast<unsigned>(max_parts + 2), &pairs_, true),
       max_pairs_(max_pairs) {
-    // contacts are found at the distance set here, for shapes of any size
+    // find contacts at the distance set here, whatever the size of the shapes
     dispatcher_.setDispatcherFlags(
         dispatcher_.getDispatcherFlags() &
         ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
@@ -167,7 +168,7 @@ Collision::~Collision() {
 }
 
 void Collision::reserve_pairs(int pairs) {
-    // The cache's tables grow only with its pairs and never shrink, so fill and empty it once.
+    // The tables of the pair cache only grow, and never shrink: fill the cache once and empty it.
     std::vector<btBroadphaseProxy> dummies(static_cast<size_t>(pairs) + 1);
     for (size_t i = 0; i < dummies.size(); ++i) {
         dummies[i].m_uniqueId = static_cast<int>(i) + 1;
@@ -309,8 +310,8 @@ bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
     const btTransform X_WB = part_b.X_WS();
     const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, X_WA, -1, -1);
     const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
-    // contacts of such hulls are found before they touch; Bullet gets this distance from three
-    // settings
+    // contacts between convex hulls are found before the hulls touch; Bullet derives the distance
+    // at which that happens from three settings
     const double margin = std::min(kMostHullMargin, kHullMargin + approach(a_wrap, b_wrap, step_));
     dispatcher_.margin = margin;
     scratch_.resizeNoInitialize(0);
@@ -405,9 +406,9 @@ double Collision::walk(btBroadphasePair& pair, double h, int first, btPersistent
     const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, X_WA, -1, -1);
     const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
     const double way = approach(a_wrap, b_wrap, h);
-    if (!(way > kEntered)) return 1;  // also if `way` is not a number
+    if (!(way > kEntered)) return 1;  // also true if `way` is not a number
     const btPersistentManifold* known = manifold_of(pair);
-    // bodies may enter soft ones, to the depth that their contact allows
+    // bodies may enter soft bodies, to the depth that their contact allows
     if (known != nullptr && is_soft(*known)) return 1;
     const bool swapped = known != nullptr && known->getBody0() != &a;
     out.setBodies(swapped ? &b : &a, swapped ? &a : &b);

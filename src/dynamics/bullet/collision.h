@@ -1,6 +1,6 @@
-// Collision runs Bullet's collision detection so that sleeping bodies cost nothing and no memory is
-// allocated: a sweep-and-prune broadphase of fixed size, and contact manifolds from pools in the
-// narrow phase.
+// Collision runs Bullet's collision detection in such a way that sleeping bodies cost nothing and
+// no memory is allocated: it uses a sweep-and-prune broadphase of fixed size, and takes the contact
+// manifolds of the narrow phase from pools.
 #pragma once
 
 #include <btBulletCollisionCommon.h>
@@ -22,53 +22,55 @@ namespace dihaptic::dynamics {
 
 class Collision {
   public:
-    /// Reserves room for this many parts of bodies and this many touching pairs of them.
+    /// Reserves memory for the given numbers of body parts and of pairs of parts that touch.
     Collision(int max_parts, int max_pairs);
     ~Collision();
 
-    /// Adds a part. It and its body must outlive this object. The body's user index
-    /// identifies it; its user index 2 is 1 while it is awake.
+    /// Adds a part. The part and its body must outlive this object. The body is identified by its
+    /// user index; its user index 2 is 1 while the body is awake.
     void add(CollisionPart& part, bool can_move);
-    /// To be called for each part of a body that moved or is about to move.
+    /// To be called for each part of a body that has moved or is about to move.
     void update_bounds(CollisionPart& part, double h);
-    /// Like update_bounds(), but the bounds only grow, because a pair whose contacts are in
-    /// manifolds() must not be dropped within a step.
+    /// Like update_bounds(), but the bounds can only grow: a pair whose contacts are in manifolds()
+    /// must not be dropped within a step.
     void widen_bounds(CollisionPart& part, double h);
-    /// From the next find_contacts() on the part has no contacts until show() is called and its
-    /// bounds are updated.
+    /// Hides a part: from the next find_contacts() on, it has no contacts until show() is called
+    /// and its bounds are updated.
     void hide(CollisionPart& part);
     void show(CollisionPart& part) { part.hidden = false; }
 
-    /// Forgets all contacts, and their impulses.
+    /// Forgets all contacts and their impulses.
     void forget();
 
-    /// Finds the contacts of all pairs with an awake body. Sleeping bodies that an awake one
-    /// touches wake: their user index 2 becomes 1, and their pairs are searched, too.
+    /// Finds the contacts of all pairs that include an awake body. A sleeping body touched by an
+    /// awake one wakes up: its user index 2 becomes 1, and its pairs are searched too.
     void find_contacts(double h);
-    /// Searches along the paths of all bodies in a step of h with their present velocities, and
-    /// adds contacts to manifolds() for those that would enter each other by more than `kEntered`
-    /// although the step's contacts are satisfied; README.md derives these contacts. The fraction
-    /// `recovery` of a penetration is removed per step. False if there are none. Wakes bodies as
-    /// find_contacts() does. Strides along the paths are counted in `work`; when it is used up, the
-    /// search ends (search_was_cut()).
+    /// Searches along the paths of all bodies, moving at their current velocities, in a step of h,
+    /// and adds contacts to manifolds() for bodies that would enter each other by more than
+    /// `kEntered` even though the step's contacts are satisfied; README.md derives these contacts.
+    /// The fraction `recovery` of a penetration is removed per step. Returns false if no contact
+    /// was added. Wakes bodies like find_contacts(). Strides along the paths are counted in `work`;
+    /// when it is used up, the search ends (search_was_cut()).
     bool find_entered(double h, double recovery, contact::Work& work);
     /// The last resort if find_entered() does not suffice: bodies that would still enter each other
-    /// cover only a fraction of their path in the step. This hit fraction is 1 before the first
-    /// call. False if there are no such bodies.
+    /// cover only a fraction of their path in the step, their hit fraction, which is 1 before the
+    /// first call. Returns false if there are no such bodies.
     bool hold_back(double h, contact::Work& work);
-    /// Whether find_entered() may have missed contacts since the last find_contacts(): it had no
-    /// room for more, or assumed that bodies already inside each other were leaving.
+    /// Whether find_entered() may have missed contacts since the last find_contacts(): it ran out
+    /// of memory for them, or assumed that bodies already inside each other were leaving.
     bool is_unsure() const { return is_unsure_ || entered_count_ == kMostEntered; }
-    /// Whether find_entered() skipped strides since the last find_contacts().
+    /// Whether find_entered() has skipped strides since the last find_contacts(), because work ran
+    /// out.
     bool search_was_cut() const { return search_was_cut_; }
 
-    /// Notes that bodies fell asleep or woke, so that other pairs must be searched.
+    /// To be called when bodies have fallen asleep or woken up, so that other pairs must be
+    /// searched.
     void sleepers_changed() { live_is_stale_ = true; }
 
-    /// Manifolds with contacts from the last find_contacts(); those of the same two bodies are
-    /// adjacent.
+    /// The manifolds that have contacts from the last find_contacts(). Manifolds between the same
+    /// two bodies are adjacent.
     std::vector<btPersistentManifold*>& manifolds() { return manifolds_; }
-    /// Manifolds that the last find_entered() added.
+    /// The manifolds added by the last find_entered().
     std::span<btPersistentManifold* const> entered() const { return new_; }
     /// Calls `use` with every manifold, including those of sleeping bodies.
     template <class Use>
@@ -78,11 +80,11 @@ class Collision {
         for (const auto& manifold : entered_) use(*manifold);
     }
     int max_pairs() const { return max_pairs_; }
-    static constexpr size_t kMostEntered = 64;  ///< pairs that enter each other in a step
+    static constexpr size_t kMostEntered = 64;  ///< most pairs that enter each other in a step
     bool overflowed() const { return overflowed_; }
 
   private:
-    /// Receives notifications when pairs appear and disappear.
+    /// A pair cache that notes when pairs appear and disappear.
     class Pairs final : public btHashedOverlappingPairCache {
       public:
         btBroadphasePair* addOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* b) override {
@@ -97,8 +99,8 @@ class Collision {
         int64_t version = 0;
     };
 
-    /// Excludes pairs of parts of the same body, and pairs of bodies for which a joint excludes
-    /// contact; hidden parts have no pairs.
+    /// Excludes pairs of parts that belong to the same body, pairs of bodies between which a joint
+    /// excludes contact, and pairs with a hidden part.
     struct OtherBodies final : btOverlapFilterCallback {
         bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
             return (a->m_collisionFilterGroup & b->m_collisionFilterMask) != 0 &&
@@ -114,31 +116,32 @@ class Collision {
     void set_bounds(CollisionPart& part, double h, bool keep);
     void reserve_pairs(int pairs);
     void sort_by_bodies();
-    /// Removes contacts at points inside bodies of several parts (seams.h).
+    /// Removes contacts at points inside bodies that consist of several parts (seams.h).
     void remove_inner();
     void list_live_pairs();
     bool look_at(btBroadphasePair& pair, const btDispatcherInfo& info);
-    /// Whether the work suffices for another stride; spends it, or notes the lack.
+    /// Whether the work budget suffices for another stride. If so, spends that work; if not, notes
+    /// that the search was cut.
     bool affords(contact::Work& work, int64_t visits);
-    /// Follows two parts along their paths in a step, from stride `first` on and as far as their
-    /// bodies' hit fractions allow. At each stride it puts their contacts into `out` and calls
-    /// `visit` with the starting poses of both bodies and the time since [s]. Returns the fraction
-    /// of the path before `visit` first returned true.
+    /// Follows two parts along their paths in a step, from stride number `first` on, and as far as
+    /// the hit fractions of their bodies allow. At each stride, writes their contacts to `out` and
+    /// calls `visit` with the initial poses of both bodies and the time since then [s]. Returns the
+    /// fraction of the path that was covered before `visit` first returned true.
     template <class Visit>
     double walk(btBroadphasePair& pair, double h, int first, btPersistentManifold& out,
                 contact::Work& work, const Visit& visit);
-    /// The first manifold of a pair, or null.
+    /// Returns the first manifold of a pair, or null if there is none.
     const btPersistentManifold* manifold_of(const btBroadphasePair& pair);
-    /// Finds the contacts of two parts at their present poses. False if there is no algorithm for
-    /// them.
+    /// Finds the contacts of two parts at their current poses. Returns false if there is no
+    /// algorithm for these parts.
     bool meet(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
               btPersistentManifold& out);
     bool enters(btBroadphasePair& pair, double h, double recovery, btPersistentManifold& out,
                 contact::Work& work);
 
     btDefaultCollisionConfiguration configuration_;
-    /// Provides memory for its manifolds, and gives new ones this world's own breaking threshold;
-    /// Bullet's is global to the program.
+    /// Provides memory for its manifolds, and gives each new manifold this world's own breaking
+    /// threshold, since Bullet's threshold is global to the program.
     struct Dispatcher : btCollisionDispatcher {
         Dispatcher(btCollisionConfiguration* configuration, int manifolds)
             : btCollisionDispatcher(configuration) {
@@ -150,7 +153,7 @@ class Collision {
             if (manifold != nullptr) manifold->setContactBreakingThreshold(margin);
             return manifold;
         }
-        btScalar margin = 0;  ///< of the pair under examination [m]
+        btScalar margin = 0;  ///< for the pair that is being examined [m]
     } dispatcher_;
     double step_ = 1e-3;
     ContactAlgorithms algorithms_;
@@ -161,32 +164,33 @@ class Collision {
     std::vector<CollisionPart*> parts_;
     bool several_parts_ = false;  // whether any body has several parts
     struct OfBodies {
-        std::array<int, 3> key;  // both bodies, and the order of detection
+        std::array<int, 3> key;  // indices of both bodies, and the order of detection
         OfParts of;
     };
     std::vector<OfBodies> sorting_;
-    std::vector<OfParts> found_;  // for manifolds_, in order
+    std::vector<OfParts> found_;  // in the same order as manifolds_
     std::vector<btPersistentManifold*> manifolds_;
     btManifoldArray scratch_;
-    std::vector<std::unique_ptr<btPersistentManifold>> entered_;  // room for late contacts
+    std::vector<std::unique_ptr<btPersistentManifold>> entered_;  // memory for late contacts
     size_t entered_count_ = 0;
-    btPersistentManifold waiting_;            // of two bodies, in hold_back()
-    std::vector<btPersistentManifold*> new_;  // from the last find_entered()
-    std::vector<int> live_;                   // pairs with an awake body, by index into the cache
-    int64_t live_version_ = -1;               // version of the pairs in live_
+    btPersistentManifold waiting_;            // contacts of two bodies, in hold_back()
+    std::vector<btPersistentManifold*> new_;  // manifolds from the last find_entered()
+    std::vector<int> live_;                   // indices in the cache of pairs with an awake body
+    int64_t live_version_ = -1;               // version of the pair cache for which live_ was made
     bool live_is_stale_ = true;
-    std::vector<char> looked_at_;  // by pair: whether it was examined
+    std::vector<char> looked_at_;  // for each pair, whether it was examined
     bool overflowed_ = false;
     bool search_was_cut_ = false;
     bool is_unsure_ = false;
 };
 
 constexpr int kAwake = 1;
-/// Depth by which a step may let a body enter another [m].
+/// Depth to which a step may let a body enter another [m].
 constexpr double kEntered = 1e-4;
 
-/// How much closer the surfaces of two bodies' parts may come in a step, according to their
-/// velocities before contacts act. Parts farther apart than this cannot touch in the step [m].
+/// Returns how much closer the surfaces of two body parts may come to each other in a step,
+/// according to their velocities before contacts act. Parts that are farther apart than this cannot
+/// touch in the step [m].
 double approach(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double h);
 
 }  // namespace dihaptic::dynamics

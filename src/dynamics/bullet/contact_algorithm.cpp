@@ -14,11 +14,11 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Contacts are found this far before bodies touch, and farther for bodies that could approach by
-/// more in the step.
+/// Contacts are found at this distance before bodies touch, and at a larger distance if the bodies
+/// could approach each other by more in the step.
 constexpr double kMargin = 5e-4;      // [m]
 constexpr double kMostMargin = 0.25;  // [m]
-/// A contact within this distance of an old one on the body continues it.
+/// A new contact continues an old one if the two are within this distance on the body.
 constexpr double kSamePoint = 5e-3;  // [m]
 
 const CollisionPart& part_of(const btCollisionObjectWrapper& part) {
@@ -75,7 +75,7 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
         return patch;
     }
 
-    /// Displacement of b relative to a in the step.
+    /// Displacement of b relative to a during the step.
     struct Move {
         Vec3 way_W;
         Vec3 turn_W;
@@ -124,7 +124,7 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
             for (int j = 0; j < old_count; ++j) {
                 const double d =
                     (old[static_cast<size_t>(j)].m_localPointA - out.m_localPointA).length2();
-                // a single point keeps its identity while a round body rolls
+                // a single point counts as the same one while a round body rolls
                 const bool only = old_count == 1 && patch.count == 1;
                 if (!taken[static_cast<size_t>(j)] && (d < distance || only)) {
                     distance = d;

@@ -1,6 +1,6 @@
-// Connects dynamics/polyhedron.h and dynamics/round.h to Bullet: the collision algorithm for all
-// pairs of shapes except hulls with too many edges. Contacts keep the impulses of the nearest point
-// of the last step, for warm starts.
+// Connects dynamics/polyhedron.h and dynamics/round.h to Bullet: they provide the collision
+// algorithm for all pairs of shapes except hulls with too many edges. For warm starts, each contact
+// keeps the impulses of the nearest point of the last step.
 #pragma once
 
 #include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
@@ -14,13 +14,14 @@
 namespace dihaptic::dynamics {
 
 /// Hulls with more edges than this use Bullet's distance algorithm, because the number of edge
-/// pairs grows with the square of the edges.
+/// pairs grows with the square of the number of edges.
 constexpr size_t kMostEdges = 64;
 
-/// Registers the algorithm. The user pointer of shapes is their CollisionPart.
+/// Registers the collision algorithm with Bullet. The user pointer of each shape must be its
+/// CollisionPart.
 class ContactAlgorithms {
   public:
-    /// `step` is read at each use: duration of the coming step [s].
+    /// `step`, the duration of the coming step [s], is read at each use.
     ContactAlgorithms(btCollisionDispatcher& dispatcher, const double& step);
     ~ContactAlgorithms();
 

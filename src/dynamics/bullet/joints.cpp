@@ -17,12 +17,12 @@ using scene::Coordinate;
 using scene::Sliding;
 using scene::Turning;
 
-/// No joint is stiffer than steel. Otherwise a mechanism would be hurled apart when it passes a
-/// singular configuration, in which its joints do not determine its motion, such as a parallelogram
-/// that lies flat.
+/// Joints are no stiffer than steel. Otherwise, a mechanism would be hurled apart when it passes
+/// through a singular configuration, in which its joints do not determine its motion, such as a
+/// parallelogram that lies flat.
 constexpr double kStiffness = 1e9;      // [N/m]
 constexpr double kTurnStiffness = 1e7;  // [N*m/rad]
-/// A body placed in violation of its joint is pulled back no faster than this.
+/// Maximum speed at which a body that was placed in violation of its joint is pulled back.
 constexpr double kPull = 0.5;    // [m/s]
 constexpr double kTurnPull = 5;  // [rad/s]
 constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -31,7 +31,7 @@ Pose pose_of(const Joints::Side& side) {
     return side.body == nullptr ? Pose{} : from_bullet(side.body->getWorldTransform());
 }
 
-/// The pose to which a step at these velocities leads.
+/// The pose that a body reaches in a step of h at these velocities.
 Pose moved(const Joints::Side& side, const Vec6& v, double h) {
     if (side.fixed) return pose_of(side);
     btTransform out;
@@ -49,13 +49,13 @@ Vec6 velocity_of(const Joints::Side& side) {
     return out;
 }
 
-/// A row for the relative rotation about n.
+/// Sets a row to the relative rotation about n.
 void turn(ProblemJoint& rows, int row, const Vec3& n) {
     rows.J_b.row(row).tail<3>() = n.transpose();
     rows.J_a.row(row).tail<3>() = -n.transpose();
 }
 
-/// Whether a joint prevents motion along F's k-th axis.
+/// Whether a joint prevents translation along the k-th axis of F.
 bool holds(Sliding sliding, int k) {
     return sliding == Sliding::none || (sliding == Sliding::along_axis && k > 0);
 }
@@ -64,19 +64,21 @@ bool holds(Turning turning, int k) {
     return turning == Turning::none || (turning == Turning::about_axis && k > 0) ||
            (turning == Turning::about_two_axes && k == 0);
 }
-/// The direction about which a joint's k-th angular row acts. F and G: axes of its frames.
+/// The direction about which the k-th angular row of a joint acts. F and G are the axes of the
+/// joint's two frames.
 Vec3 turning_direction(Turning turning, const Mat3& F, const Mat3& G, int k) {
     if (turning == Turning::about_axis) return G.col(0).cross(F.col(k));
     if (turning == Turning::about_two_axes) return G.col(1).cross(F.col(0));
     return F.col(k);
 }
 
-/// A row without effect.
+/// Makes a row ineffective.
 void close(ProblemJoint& rows, int row) {
     rows.low[row] = rows.high[row] = 0;
 }
 
-/// The rotation that turns the x axis to `axis`, and the y axis near to `second`.
+/// Returns the rotation that maps the x axis to `axis`, and the y axis as closely as possible to
+/// `second`.
 Quat frame_along(const Vec3& axis, const Vec3& second) {
     Mat3 R;
     R.col(0) = axis.normalized();
@@ -99,7 +101,8 @@ double inside(const ProblemJoint& rows, int row, const Vec6& a, const Vec6& b) {
     return rows.J_a.row(row).dot(a) + rows.J_b.row(row).dot(b);
 }
 
-/// The inverse masses moved by the rows along and about the axes, each separately.
+/// The inverse masses that the rows along and about the axes would move, each considered
+/// separately.
 Vec6 along_rows(const contact::ContactProblem& problem, std::span<const ProblemJoint> rows) {
     Vec6 out = Vec6::Zero();
     for (int k = 0; k < 6; ++k) {
@@ -114,7 +117,7 @@ Vec6 along_rows(const contact::ContactProblem& problem, std::span<const ProblemJ
     return out;
 }
 
-/// The inverse mass moved by the coordinate while the joint's other rows hold.
+/// The inverse mass that is moved by the joint's coordinate while its other rows hold.
 double along_coordinate(const contact::ContactProblem& problem,
                         std::span<const ProblemJoint> rows) {
     constexpr int kHeld = 2 * ProblemJoint::kRows;
@@ -135,7 +138,7 @@ double along_coordinate(const contact::ContactProblem& problem,
         W += J * problem.bodies[static_cast<size_t>(body)].inverse_mass * J.transpose();
     }
     for (int k = 0; k < kHeld; ++k) {
-        if (W(k, k) <= 0) W(k, k) = 1;  // a row without effect
+        if (W(k, k) <= 0) W(k, k) = 1;  // this row has no effect
     }
     const auto held = W.topLeftCorner<kHeld, kHeld>();
     const Eigen::Matrix<double, kHeld, 1> across = W.topRightCorner<kHeld, 1>();
@@ -189,7 +192,7 @@ Joints::Gaps Joints::gaps(const Joint& joint, const Pose& X_WA, const Pose& X_WB
 
 Vec3 Joints::direction(const Joint& joint, const Pose& X_WA, const Pose& X_WB) noexcept {
     if (!joint.spec.is_distance()) return X_WA.R * joint.X_AF.R * Vec3::UnitX();
-    constexpr double kTogether = 1e-9;  // coincident points: any direction is valid
+    constexpr double kTogether = 1e-9;  // if the points coincide, any direction is valid
     const Vec3 between = X_WB * joint.X_BF.p - X_WA * joint.X_AF.p;
     const double distance = between.norm();
     return distance > kTogether ? Vec3(between / distance)
@@ -204,7 +207,7 @@ void Joints::fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
     const Mat3 G = X_WG.R.toRotationMatrix();
     const auto along = [&](ProblemJoint& out, int row, const Vec3& d) {
         out.J_b.row(row) << d.transpose(), (X_WG.p - X_WB.p).cross(d).transpose();
-        // the axes are those of the first body, and turn with it
+        // the axes are fixed to the first body, and turn with it
         out.J_a.row(row) << -d.transpose(), -(X_WG.p - X_WA.p).cross(d).transpose();
     };
     const scene::JointKindRow& kind = joint.spec.row();
@@ -231,8 +234,8 @@ void Joints::fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
 
 namespace {
 
-/// A row for a spring and a damper, with u as the previous rate of stretch. At the end of a step
-/// without motion it would resist with `force`, and with `stiffness` more per unit of further
+/// Sets a row for a spring and a damper; u is the previous rate of stretch. At the end of a step
+/// without motion, the spring would resist with `force`, plus `stiffness` per unit of further
 /// stretch.
 void ask_of_spring(double force, double stiffness, double damping, double inverse_mass, double u,
                    double h, int k, ProblemJoint& row) {
@@ -312,15 +315,15 @@ Books::Exchange Joints::exchange(size_t i, double h, const Books::Meeting& meeti
     return out;
 }
 
-/// Rows of the coordinate, which would be q at the end of a step without motion: a spring with its
-/// damper, dry friction, and the nearer stop.
+/// Sets the rows of a joint coordinate, which would be q at the end of a step without motion: a
+/// spring with its damper, dry friction, and the nearer stop.
 void Joints::ask_of_coordinate(size_t i, double q, double h, ProblemJoint& row) const noexcept {
     enum { kSpring, kMotor, kStop };
     const Joint& joint = joints_[i];
     const scene::Joint& spec = joint.spec;
     scene::SpringCurve::Point at{spec.stiffness * (q - spec.rest), spec.stiffness};
     if (!spec.curve.is_empty()) at = spec.curve.at(q - spec.rest);
-    // where a curve falls, its negative stiffness at the end of a step would be unstable
+    // in a falling part of the curve, a negative stiffness at the end of the step would be unstable
     ask_of_spring(at.resistance * joint.properties.stiffness,
                   std::max(0.0, at.stiffness) * joint.properties.stiffness,
                   spec.damping * joint.properties.damping, joint.inverse_mass, states_[i].velocity,
@@ -354,8 +357,8 @@ void Joints::ask_of_motor(const Joint& joint, double q, double h, int k,
     const double most = joint.motor->most_force;
     row.low[k] = -h * most;
     row.high[k] = h * most;
-    // slow enough for half of the motor's force to stop it at the target, relative to the target's
-    // motion
+    // limit the speed, relative to the target's motion, so that half of the motor's force can stop
+    // the joint at the target
     const double led = joint.led_from ? std::abs(to - *joint.led_from) / h : 0;
     const double fastest = led + std::sqrt(most * joint.inverse_mass * std::abs(q - to));
     row.bias[k] = std::clamp((q - to) / h, -fastest, fastest);
@@ -384,8 +387,8 @@ double Joints::ask(size_t i, double h, const Vec6& v_a, const Vec6& v_b) noexcep
     const double q_near = states_[i].position;
     const Gaps then = gaps(joint, moved(joint.a, v_a, h), moved(joint.b, v_b, h), q_near);
     if (joint.spec.row().yields) {
-        // an error of the guess changes a spring by the square of a step's rotation, so this
-        // suffices
+        // this suffices: an error in the guess affects a spring only in proportion to the square of
+        // the rotation in a step
         ask_of_bushing(joint, then, h, v_a, v_b, joint.rows);
         return 0;
     }
@@ -416,8 +419,8 @@ void Joints::tell(const Joint& joint, contact::ContactProblem& problem) noexcept
     }
 }
 
-/// A guess of a body's velocities after the step: changes continue as in the last steps, unless the
-/// body turns so far in a step that the forces on it change direction.
+/// A guess of a body's velocities after the step. Velocity changes are assumed to continue as in
+/// the last steps, unless the body turns so far in a step that the forces on it change direction.
 Vec6 Joints::expected(const Side& side, const Change& change, double h) noexcept {
     constexpr double kFar = 0.1;  // [rad]
     const Vec6 v = velocity_of(side);
@@ -426,7 +429,7 @@ Vec6 Joints::expected(const Side& side, const Change& change, double h) noexcept
 
 void Joints::add_rows(std::span<const size_t> which, std::span<const int> index, double h,
                       contact::ContactProblem& problem, std::vector<Vec3>& start) noexcept {
-    // a little of the load shared by redundant joints is discarded in each step
+    // discard a little of the load shared by redundant joints in each step
     constexpr double kKept = 0.95;
     for (const size_t i : which) {
         Joint& joint = joints_[i];

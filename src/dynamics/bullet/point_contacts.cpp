@@ -7,7 +7,7 @@
 namespace dihaptic::dynamics {
 
 void PointContacts::reserve(int points) {
-    // for the last step and the coming one
+    // for both the last step and the coming step
     slots_.resize(2 * static_cast<size_t>(points) * kMostPointContacts);
     taken_.reserve(slots_.size());
     for (Slot& slot : slots_) {

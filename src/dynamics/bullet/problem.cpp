@@ -12,16 +12,17 @@ namespace {
 
 using contact::kFixed;
 
-/// After the step, a contact that has not touched may separate or approach at any speed [m/s].
+/// Velocity that allows a contact which has not touched to separate or approach at any speed after
+/// the step [m/s].
 constexpr double kFarApart = 1e6;
 
-/// A body that starts inside another is pushed out no faster than this [m/s], so that it is not
-/// hurled away.
+/// Maximum speed at which a body that starts inside another is pushed out, so that it is not hurled
+/// away [m/s].
 constexpr double kMostRecovery = 0.5;
 
 const contact::ProblemBody kRests;
 
-/// Columns: the normal and two tangents, which depend on the normal only.
+/// The columns are the normal and two tangents, which depend only on the normal.
 Mat3 contact_frame(const Vec3& normal) {
     btVector3 first;
     btVector3 second;
@@ -38,9 +39,10 @@ Vec3 middle(const btManifoldPoint& point) {
            (from_bullet(point.getPositionWorldOnA()) + from_bullet(point.getPositionWorldOnB()));
 }
 
-/// Mean height of a patch's points along the first normal. The points are moved by micrometres onto
-/// one plane perpendicular to it: otherwise closing gaps of different size would require the
-/// distance between two points to change, which rigid bodies that stick at both cannot do.
+/// Mean height of a patch's points along the normal of the first point. The points are moved by
+/// micrometres onto one plane perpendicular to this normal: otherwise, closing gaps of different
+/// sizes would require the distance between two points to change, which is impossible for rigid
+/// bodies that stick at both points.
 double mean_height(const btPersistentManifold& manifold) {
     double sum = 0;
     const Vec3 n_W = manifold.getNumContacts() > 0
@@ -56,7 +58,7 @@ double mean_height(const btPersistentManifold& manifold) {
 ///     r / h = -k (x + h u) - c u    or    u + gamma r + bias = 0,    gamma = 1 / (h (c + h k))
 ///
 /// While the spring is slow, most of h k is unwanted damping; it is reduced to theta h k, with
-/// theta = s / (1 + s) and s = h^2 k / m, m the mass that the contact moves.
+/// theta = s / (1 + s) and s = h^2 k / m, where m is the mass that the contact moves.
 void soften(contact::ProblemContact& contact, const contact::ContactProblem& problem,
             const ContactLaw& law, double gap, double h) {
     constexpr double kLeastShare = 0.05;
@@ -72,8 +74,8 @@ const contact::ProblemBody& body_of(const contact::ContactProblem& problem, int 
     return i == kFixed ? kRests : problem.bodies[static_cast<size_t>(i)];
 }
 
-/// Difference between the separation of both bodies' points in the step along their arcs and
-/// the separation by their velocities [m/s].
+/// How much the points of the two bodies separate when they move along their arcs for a step, minus
+/// the separation due to their velocities, as a speed [m/s].
 Vec3 on_arcs(const contact::ContactProblem& problem, const contact::ProblemContact& contact,
              double h) {
     const auto off = [&](const contact::ProblemBody& one, const Vec3& r) {
@@ -83,14 +85,14 @@ Vec3 on_arcs(const contact::ContactProblem& problem, const contact::ProblemConta
            off(body_of(problem, contact.a), contact.p_AC_W);
 }
 
-/// The same along the tangents. Bodies that turn together, or about the contact's normal, move on
-/// arcs, and stay together if their points reach the ends of the same chord. By velocities alone, a
-/// block on a turntable would creep outward by w^2 r h / 2, and a body that swings between two pads
-/// would slip. Zero for bodies that roll on each other, whose points do not stay together; meant
-/// for patches of contacts.
+/// The tangential part of on_arcs(). Bodies that turn together, or about the contact's normal, move
+/// on arcs, and stay together if their points reach the ends of the same chord. If only velocities
+/// were considered, a block on a turntable would creep outward by w^2 r h / 2, and a body that
+/// swings between two pads would slip. Returns zero for bodies that roll on each other, whose
+/// points do not stay together; meant for patches of contacts.
 Eigen::Vector2d along_arcs(const contact::ContactProblem& problem,
                            const contact::ProblemContact& contact, double h) {
-    constexpr double kRolls = 0.01;  // as a fraction of the angular velocity
+    constexpr double kRolls = 0.01;  // fraction of the angular velocity
     constexpr double kLeast = 1e-6;  // [m/s]
     const Vec3& w_A = body_of(problem, contact.a).w_W;
     const Vec3& w_B = body_of(problem, contact.b).w_W;
@@ -103,11 +105,10 @@ Eigen::Vector2d along_arcs(const contact::ContactProblem& problem,
     return (R.transpose() * on_arcs(problem, contact, h)).tail<2>();
 }
 
-/// A rolling rim touches with another point in the middle of the step, where velocities are
-/// those that bring its body to the step's end. The impulse acts at the point of contact at the
-/// start, and must allow the motion of that point while the other one rests. This is that
-/// motion, in the contact's frame [m/s]. Without it, Euler's disc sinks from step to step and
-/// gains energy.
+/// A rolling rim touches at a different point in the middle of the step, for which velocities are
+/// defined. The impulse acts at the initial contact point, and must allow that point to move while
+/// the later contact point is at rest. Returns this motion, in the contact frame [m/s]. Without it,
+/// Euler's disc sinks from step to step and gains energy.
 Vec3 by_rolling(const contact::ContactProblem& problem, const contact::ProblemContact& contact,
                 const btManifoldPoint& point) {
     const Vec3 ahead = ahead_of(point);
@@ -116,11 +117,12 @@ Vec3 by_rolling(const contact::ContactProblem& problem, const contact::ProblemCo
     return contact.R_WC.transpose() * turns.cross(ahead);
 }
 
-/// Normal velocity of separation, by Newton's law e u for the speed u at which the bodies touch, at
-/// the fraction `when` of the step. `free` is the normal velocity without the contact, in the
-/// middle of the step; loads changed it by `loads`, and will again in the next step. Velocities are
-/// those of the middle of steps, so the part of `loads` between the middle and the touch is taken
-/// into account. Zero for an impact so slow that the bodies would touch again in the next step.
+/// Normal velocity at which bodies separate, according to Newton's law e u, where u is the speed at
+/// which they touch, at the fraction `when` of the step. `free` is the normal velocity without the
+/// contact, in the middle of the step; loads changed it by `loads`, and will again in the next
+/// step. Velocities are those in the middle of steps, so the part of `loads` between the middle and
+/// the touch is taken into account. Returns zero for an impact so slow that the bodies would touch
+/// again in the next step.
 double rebound(double free, double when, double loads, double restitution) {
     const double leaves = restitution * (-free - loads * (when - 0.5));
     const double speed = leaves + std::clamp(loads, -leaves, leaves) / 2;
@@ -254,7 +256,7 @@ bool ManifoldProblem::bounce(std::span<btPersistentManifold*> manifolds,
                 const double when = std::clamp(contact.bias / -free, 0.0, 1.0);
                 const double speed = free < 0 ? rebound(free, when, loads, restitution) : 0;
                 bounces = bounces || speed > 0;
-                // bodies that were pushed together by others obey the same law
+                // bodies pushed together by other bodies obey the same law
                 leaves = free < 0 ? speed : -restitution * free;
             }
             leaves_.push_back(leaves);

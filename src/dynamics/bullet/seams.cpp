@@ -5,11 +5,12 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// A part contains the points within this distance of it [m].
+/// A part contains the points within this distance of its surface [m].
 constexpr double kOnPart = 1e-6;
-/// A part counts as nearer than a point if it is nearer by more than rounding [m].
+/// Margin for rounding: a part is nearer than a point only if it is nearer by more than this [m].
 constexpr double kNearer = 1e-8;
-/// Points with the same normal have the same effect and do not conflict.
+/// Normals whose dot product exceeds this are the same; points with the same normal have the same
+/// effect and do not conflict.
 constexpr double kSameNormal = 1 - 1e-8;
 
 bool has(const CollisionPart& part, const btVector3& p_W) {
@@ -27,8 +28,8 @@ double nearest(const btPersistentManifold& manifold) {
     return out;
 }
 
-/// Whether the parts of the other manifold, one of which is shared, are nearer and contain the
-/// point.
+/// Whether the parts of the other manifold, one of which is shared with this one, are nearer and
+/// contain the point.
 bool is_inner(const btManifoldPoint& point, const OfParts& of, const OfParts& other) {
     const bool same_0 = of.part_0 == other.part_0;
     const bool same_1 = of.part_1 == other.part_1;
@@ -43,7 +44,7 @@ bool is_inner(const btManifoldPoint& point, const OfParts& of, const OfParts& ot
 }  // namespace
 
 void remove_inner_contacts(std::span<OfParts> of_two_bodies) noexcept {
-    // all are judged before any removal, because an inner point may reveal another
+    // judge all points before removing any, because an inner point may reveal another one
     for (OfParts& of : of_two_bodies) of.nearest = nearest(*of.manifold);
     for (OfParts& of : of_two_bodies) {
         for (int i = 0; i < of.manifold->getNumContacts(); ++i) {

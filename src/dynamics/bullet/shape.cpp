@@ -8,9 +8,9 @@ namespace dihaptic::dynamics {
 namespace {
 
 /// Hulls, cylinders and cones carry a thin skin, without which Bullet's distance algorithm loses
-/// the normal at zero depth. Cylinders and boxes are shrunk by the same amount and their edges
+/// the normal at zero depth. Cylinders and boxes are shrunk by the same amount and their edges are
 /// rounded (Bullet's own skin would round a box by a tenth of its half edge); a sphere, a capsule
-/// or a cone meets a hull this far outside its surface.
+/// or a cone meets a hull at this distance outside its own surface.
 constexpr double kSkin = 5e-5;  // [m]
 
 std::unique_ptr<btCollisionShape> bullet_hull(const scene::Hull& hull) {
@@ -49,7 +49,7 @@ std::unique_ptr<btCollisionShape> bullet_shape(const scene::Shape& shape) {
         case ShapeKind::mesh:
             return bullet_hull(shape.hull);
         case ShapeKind::compound:
-            break;  // only its parts have shapes
+            break;  // only the parts of a compound have shapes
     }
     return nullptr;
 }
@@ -100,11 +100,11 @@ double thickness_of(const btCollisionShape& shape, const Polyhedron* polyhedron)
     return least;
 }
 
-/// Outward normals of the faces of part `of` that the other parts cover.
+/// Outward normals of those faces of part `of` that are covered by other parts.
 std::vector<Vec3> covered_faces(const std::vector<scene::ConvexPart>& parts, size_t of,
                                 const Polyhedron& polyhedron) {
     constexpr double kOutward = 1e-6;  // [m]
-    constexpr double kInward = 0.01;   // fraction of the way toward the middle of the face
+    constexpr double kInward = 0.01;   // as a fraction of the way towards the middle of the face
     std::vector<Vec3> out;
     const auto is_covered = [&](const Vec3& p_S) {
         const Vec3 p_B = parts[of].X_BS * p_S;
@@ -139,7 +139,7 @@ std::vector<std::unique_ptr<CollisionPart>> collision_parts(const scene::Shape& 
     const Pose X_MB = X_BM.inverse();
     std::vector<scene::ConvexPart> parts = scene::convex_parts(shape);
     for (scene::ConvexPart& convex : parts) {
-        // hulls are transformed once, here, instead of in each step
+        // transform hulls once, here, instead of in every step
         if (convex.shape.kind != scene::ShapeKind::mesh) continue;
         const Pose X_MS = X_MB * convex.X_BS;
         for (Vec3& v : convex.shape.hull.vertices) v = X_MS * v;

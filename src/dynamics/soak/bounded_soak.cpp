@@ -1,6 +1,7 @@
-// Steps two thousand extreme scenes, changing the solver twenty times a second: no step takes so
-// long that a device would switch its force off. Each scene runs twice, with identical results, and
-// the shorter of each step's two times is used, to exclude the time of other programs.
+// Steps two thousand extreme scenes, changing the solver twenty times a second, and checks that no
+// step takes so long that a device would switch its force off. Each scene runs twice, with
+// identical results, and the shorter of the two times of each step is used, to exclude time taken
+// by other programs.
 #include <gtest/gtest.h>
 
 #include <time.h>
@@ -14,10 +15,10 @@ namespace {
 
 constexpr int kScenes = 2000;
 constexpr int kSteps = 100;
-constexpr int kChange = 50;          // steps between changes of the solver
-constexpr double kMaxPause = 40e-3;  // settings: safety: max_pause [s]
+constexpr int kChange = 50;          // number of steps between changes of the solver
+constexpr double kMaxPause = 40e-3;  // [s], the setting safety: max_pause
 
-/// Processor time of this thread [s].
+/// Processor time used by this thread [s].
 double now() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -46,7 +47,7 @@ std::vector<Step> steps_of(uint64_t seed) {
 
 TEST(BoundedSoak, NoStepOfTwoThousandExtremeScenesTakesTooLong) {
     double longest = 0;
-    double per_visit = 0;  // of steps with much work
+    double per_visit = 0;  // time per visit in steps with much work
     int64_t most_work = 0;
     int touched = 0;
     int out_of_work = 0;

@@ -1,4 +1,4 @@
-// Tests that no solver creates energy, over hundreds of random scenes.
+// Tests that no solver creates energy in hundreds of random scenes.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -38,7 +38,7 @@ TEST_P(EnergySoak, NoStepRaisesItWithoutAnOverlap) {
             ++raised_from_overlap;
         }
     }
-    // bodies that spin into each other sometimes overlap and are pushed apart again
+    // bodies that spin into each other sometimes overlap, and are then pushed apart
     EXPECT_LT(raised_from_overlap, kScenes * kSteps / 2000);
     std::printf("worst rise %.1e; from overlaps %d above %.0e, %.1e at worst\n", worst_clean,
                 raised_from_overlap, kRise, worst);

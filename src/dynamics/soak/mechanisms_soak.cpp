@@ -1,5 +1,5 @@
-// Tests a million steps of random mechanisms, pushed together, dropped and jammed: nothing
-// diverges, no miss of the solver goes unreported, joints hold, and no energy is created.
+// Tests a million steps of random mechanisms that are pushed together, dropped and jammed: nothing
+// diverges, every miss of the solver is reported, joints hold, and no energy is created.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -18,7 +18,7 @@ Vec3 random_vector(Random& random, double size) {
     return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
 }
 
-/// Bodies above a table, joined into a tree or sometimes a loop; and two jaws.
+/// Bodies above a table that are joined into a tree or sometimes a loop, and two jaws.
 struct Mechanism {
     scene::Scene scene;
     size_t jaws = 0;  // index of the first jaw
@@ -62,7 +62,7 @@ struct Mechanism {
             body.surface.film = random.uniform(0, 3);
         }
     }
-    /// -1 is the world.
+    /// Joins two bodies; -1 is the world.
     void join(Random& random, int a, int b) {
         scene::Joint joint;
         joint.name = "joint " + number_text(scene.joints.size());
@@ -113,9 +113,9 @@ TEST_P(MechanismsSoak, AMillionStepsHarmNothing) {
         world.activate();
         const auto jaw = static_cast<int>(mechanism.jaws);
         const double squeeze = random.uniform(2, 20);
-        const double lift = random.uniform(1, 3);  // in units of the jaws' weight
+        const double lift = random.uniform(1, 3);  // relative to the weight of the jaws
         for (int i = 0; i < kSteps; ++i) {
-            // the jaws close, lift and open again
+            // the jaws close, lift, and open again
             const double close = i < 700 ? squeeze : -squeeze;
             const double up = (i > 300 && i < 700 ? lift : 1) * 0.2 * kGravity;
             world.apply({jaw}, {close, 0, up}, Vec3::Zero());
@@ -131,7 +131,7 @@ TEST_P(MechanismsSoak, AMillionStepsHarmNothing) {
             }
         }
     }
-    // 20 N take a jaw of 0.2 kg to 70 m/s in 0.7 s without an obstacle
+    // in 0.7 s without an obstacle, 20 N accelerate a jaw of 0.2 kg to 70 m/s
     EXPECT_LT(fastest, 70);
     EXPECT_LE(worst_unreported, 1.0001e-8);
     EXPECT_LT(missed, kScenes * kSteps / 100);

@@ -1,4 +1,4 @@
-// Thousands of shots (test/shots.h): none passes through its target.
+// Fires thousands of shots (test/shots.h) and checks that none passes through its target.
 #include <cstdio>
 
 #include "dynamics/test/shots.h"

@@ -1,4 +1,4 @@
-// Boxes and tables for tests of the World.
+// Boxes and tables for tests of World.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace dihaptic::dynamics {
 constexpr double kStep = 1e-3;     // [s]
 constexpr double kGravity = 9.81;  // [m/s^2]
 
-/// A box; it is fixed if its mass is zero.
+/// A box, which is fixed if its mass is zero.
 inline scene::Body box(const std::string& name, const Vec3& size, const Vec3& position, double mass,
                        double friction = 0.8) {
     scene::Body body;
@@ -51,7 +51,7 @@ inline scene::Joint joint(scene::JointKind kind, std::vector<std::string> betwee
     return out;
 }
 
-/// A body from the text of a scene file in scenes/.
+/// Reads a body from text in the format of a scene file in scenes/.
 inline scene::Body body_from(const std::string& yaml) {
     scene::Scene scene;
     Diagnostics diagnostics;
@@ -61,7 +61,7 @@ inline scene::Body body_from(const std::string& yaml) {
     return scene.bodies.at(0);
 }
 
-/// Settings with which nothing sleeps.
+/// Settings with which no body falls asleep.
 inline frame::DynamicsSettings awake() {
     frame::DynamicsSettings settings;
     settings.sleeping = false;

@@ -1,5 +1,5 @@
-// The books of a step: they balance in scenes of every kind, compared with closed forms if
-// available, and every fault planted in a step is reported.
+// Tests the books of a step: they balance in scenes of every kind, they agree with closed forms
+// where these exist, and every fault planted in a step is reported.
 #include "dynamics/books.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 namespace dihaptic::dynamics {
 
-/// Plants a fault between the loads of a step and its solve.
+/// Plants a fault between applying the loads of a step and solving it.
 class Sabotage {
   public:
     using Problem = contact::ContactProblem;
@@ -20,7 +20,7 @@ class Sabotage {
     static void plant(World& world, Fault fault) {
         World::Impl& inside = *world.impl_;
         world.watch_problems([&inside, fault = std::move(fault)](const Problem& problem, auto) {
-            // the watcher gets the state with which the step continues
+            // the watcher gets the state from which the step continues
             fault(const_cast<Problem&>(problem), *btRigidBody::upcast(inside.island_bodies[0]));
         });
     }
@@ -54,7 +54,7 @@ const std::string kTable =
     "  - {name: table, shape: box, size_mm: [2000, 2000, 100], position_mm: [0, 0, -50], fixed: "
     "yes, friction: 0.6}\n";
 
-/// Acts in the first step.
+/// Returns a function that throws a body in the first step.
 std::function<void(World&, int)> thrown(int body, const Vec3& v, const Vec3& w = Vec3::Zero()) {
     return [=](World& world, int step) {
         if (step == 0) world.set_motion({body}, v, w);
@@ -203,7 +203,7 @@ TEST(Books, OfAFreeFallExchangePotentialForKineticEnergy) {
 }
 
 TEST(Books, OfAPushAreItsWork) {
-    // a force lifts a block by half a metre: its work is the gain of both energies
+    // a force lifts a block by half a metre: its work equals the gain in both energies
     World world = make({block({0, 0, 1})}, awake());
     world.step(kStep);
     double work = 0;
@@ -246,11 +246,11 @@ TEST(Books, OfAnImpactAreWhatRestitutionLeaves) {
     EXPECT_NEAR(taken / before, 0.75, 0.02);
 }
 
-/// A fault that moves a body by this in half a second is reported [m].
+/// A fault must be reported if it moves a body by this much in half a second [m].
 constexpr double kMoved = 5e-3;
 constexpr int kFaultySteps = kSteps / 2;
 
-/// Deviation of a faulty body's motion after a second [m].
+/// Largest deviation of the bodies' positions due to a fault [m].
 double off(const World& world, const World& well) {
     double most = 0;
     for (size_t i = 0; i < world.states().size(); ++i)

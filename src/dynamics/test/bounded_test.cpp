@@ -1,5 +1,5 @@
-// Tests that every step for which a hand waits stays within the limit of counted work, and reports
-// reaching it.
+// Tests that every step for which a hand waits stays within the limit on counted work, and reports
+// when this limit is reached.
 #include <gtest/gtest.h>
 
 #include "base/number.h"
@@ -9,7 +9,8 @@
 namespace dihaptic::dynamics::bounded_test {
 namespace {
 
-/// Additional work allowed per contact: assembly and the fewest sweeps, in each of five passes.
+/// Additional work allowed per contact: assembly and the minimum number of sweeps, in each of five
+/// passes.
 constexpr int64_t kOnTop = 200;
 
 TEST(Bounded, NoStepOfAnExtremeSceneDoesMoreThanItMay) {
@@ -18,7 +19,7 @@ TEST(Bounded, NoStepOfAnExtremeSceneDoesMoreThanItMay) {
     for (uint64_t seed = 0; seed < 24; ++seed) {
         Extreme extreme(seed);
         for (int i = 0; i < 24; ++i) {
-            // much more often than twenty times a second
+            // this is much more often than twenty times a second
             if (i % 6 == 0)
                 extreme.world().set_solver(contact::Solver((i / 6 + seed) % contact::kSolvers));
             if (extreme.step(i) == StepStatus::diverged) extreme.world().mend();
@@ -72,13 +73,13 @@ TEST(Bounded, APlateOnARailThatIsInsideTheTableIsSolvedAllTheSame) {
             world.step(kStep);
             EXPECT_FALSE(world.solve_stats().missed) << solver << " " << i;
         }
-        // 1 N pushed 120 g for 0.1 s
+        // 1 N has pushed 120 g for 0.1 s
         EXPECT_NEAR(world.state({1}).X_WB.p.x(), 0.5 * 1 / 0.12 * 0.01, 2e-3) << solver;
     }
 }
 
-/// A block in the air between two pads; optionally, also a third pad on a block that two walls
-/// crush, a problem without a solution.
+/// A block held in the air between two pads. If `crushed`, a third pad presses on a block that is
+/// crushed by two walls, which is a problem without a solution.
 World two_hands(bool crushed) {
     scene::Scene scene;
     scene.bodies = {table(), box("crushed", Vec3::Constant(0.04), {0.5, 0, 0.02}, 0.1),

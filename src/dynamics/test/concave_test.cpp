@@ -54,7 +54,7 @@ TEST(Concave, ACupStandsOverABallThatItWouldCrushWereItSolid) {
 }
 
 TEST(Concave, AMugHangsOnAHookBelowWhereItsHandleRests) {
-    // the handle's bar rests across the hook's bend; friction lets the mug swing to rest below it
+    // the handle's bar rests across the bend of the hook; friction lets the mug come to rest below
     const scene::Body mug_body = body_from(
         "{name: mug, shape: compound, mass_g: 150, friction: 0.3, rotation_deg: [0, 0, 90], "
         "position_mm: [16, 45, -61.7], parts: ["
@@ -68,8 +68,8 @@ TEST(Concave, AMugHangsOnAHookBelowWhereItsHandleRests) {
                         mug_body});
     run(world, 4 * kSeconds);
     const BodyState& mug = world.states()[1];
-    // over a second, the supporting impulse equals that of the mug's weight plus the mug's gain of
-    // momentum
+    // over a second, the supporting impulse equals the impulse of the mug's weight plus the mug's
+    // gain in momentum
     Vec3 impulse = Vec3::Zero();
     const Vec3 centre(solid_of(mug_body.shape, 0.15).X_BM.p);
     const auto momentum = [&] {
@@ -84,11 +84,11 @@ TEST(Concave, AMugHangsOnAHookBelowWhereItsHandleRests) {
     const Vec3 gained = momentum() - before;
     EXPECT_LT((impulse - Vec3(0, 0, 0.15 * kGravity) - gained).norm(), 1e-6);
     EXPECT_GT(mug.X_WB.p.z(), -0.12);
-    // the mug's centre has come to rest below the hook
+    // the centre of the mug has come to rest below the hook
     EXPECT_LT((mug.X_WB * centre - Vec3(0.016, 0, (mug.X_WB * centre).z())).norm(), 0.02);
 }
 
-/// An OBJ file of a ring about z, in millimetres.
+/// Returns an OBJ file of a ring about z, in millimetres.
 std::string ring(double radius, double thickness, int around, int across) {
     std::string out;
     const auto angle = [](int i, int of) { return 2 * std::numbers::pi * i / of; };
@@ -112,7 +112,7 @@ std::string ring(double radius, double thickness, int around, int across) {
 }
 
 TEST(Concave, RingsLieOnATableAsTheyFall) {
-    // their pieces have corners in line, and faces with hardly any area
+    // the pieces of these rings have collinear corners, and faces with hardly any area
     for (const auto& [around, across] : {std::pair{16, 8}, {24, 12}}) {
         SCOPED_TRACE(around);
         const testing::TemporaryFolder folder;
@@ -136,7 +136,7 @@ TEST(Concave, RingsLieOnATableAsTheyFall) {
 }
 
 TEST(Concave, ABallInABowlLosesLessThanItsFacetsTake) {
-    // seams between pieces in the bowl's side are not felt
+    // seams between the pieces on the side of the bowl are not felt
     const std::string bowl =
         "{name: bowl, shape: mesh, file: ../meshes/bowl.obj, unit: mm, concave: yes, fixed: yes, "
         "friction: 0}";
@@ -147,11 +147,11 @@ TEST(Concave, ABallInABowlLosesLessThanItsFacetsTake) {
     world.step(kStep);
     const double before = world.balance().energy();
     run(world, kSeconds);
-    EXPECT_LT(before - world.balance().energy(), 0.6e-3);  // 0.72e-3 J with the pieces' own edges
+    EXPECT_LT(before - world.balance().energy(), 0.6e-3);  // 0.72e-3 J if seams were felt
 }
 
 TEST(Concave, ACompoundTurnsAboutItsCentreOfMass) {
-    // a dumbbell of unequal boxes in free flight: its centre falls, its momentum stays
+    // in free flight, a dumbbell of unequal boxes falls and keeps its angular momentum
     const scene::Body dumbbell = body_from(
         "{name: d, shape: compound, mass_g: 300, position_mm: [0, 0, 500], parts: ["
         "{shape: box, size_mm: [20, 20, 20], position_mm: [50, 0, 0]}, "
@@ -160,7 +160,7 @@ TEST(Concave, ACompoundTurnsAboutItsCentreOfMass) {
     world.apply({0}, {0, 0, 0.3 * kGravity}, {0, 0.01, 0.02});
     world.step(kStep);
     const BodyState& state = world.states()[0];
-    // 2/3 of the mass at +50 mm, 1/3 at -50 mm
+    // 2/3 of the mass is at +50 mm, 1/3 at -50 mm
     const Vec3 centre(0.05 / 3, 0, 0);
     EXPECT_LT((state.v_WB + state.w_WB.cross(state.X_WB.R * centre)).norm(), 1e-9);
     // I_zz = sum m (a^2 + b^2) / 12 + m d^2

@@ -1,4 +1,4 @@
-// Cones that stand, tip over, slide and roll, against closed forms.
+// Compares cones that stand, tip over, slide and roll with closed forms.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -12,7 +12,7 @@ struct Size {
     double radius, height;
     double lean() const {
         return std::atan(radius / height);
-    }  ///< of its side, half the opening angle
+    }  ///< inclination of the side, half the opening angle
 };
 
 scene::Body cone(const Size& size, double friction = 0.8) {
@@ -27,7 +27,7 @@ scene::Body cone(const Size& size, double friction = 0.8) {
     return out;
 }
 
-/// A cone that lies on its side with its tip at the origin, its base toward x.
+/// The pose of a cone that lies on its side, with its tip at the origin and its base towards x.
 Pose on_its_side(const Size& size) {
     Pose out;
     out.R = rotation_by(-(std::numbers::pi / 2 + size.lean()) * Vec3::UnitY());
@@ -36,9 +36,9 @@ Pose on_its_side(const Size& size) {
 }
 
 /// A cone that rolls on its side about its tip, which stays at the origin. It turns about the line
-/// on which it lies, w = -W cot(a) along it for W about the vertical: the middle of its base, at
-/// h cos(a) from the vertical through the tip and at h sin(a) above the line, moves by
-/// W h cos(a) = w h sin(a).
+/// on which it lies. If W is its angular velocity about the vertical, the one along this line is w
+/// = -W cot(a): the middle of its base, at h cos(a) from the vertical through the tip and at h
+/// sin(a) above the line, moves at the speed W h cos(a) = w h sin(a).
 struct Roll {
     Size size;
     double rate;  ///< W [rad/s]
@@ -46,11 +46,12 @@ struct Roll {
 
     /// The W at which the cone lifts its tip. The moment of its weight and of the contact force, at
     /// x along the line of length h / cos(a), turns its angular momentum about the tip: m g (x -
-    /// 3/4 h cos(a)) = W^2 cot(a) (I cos(a)^2 + J sin(a)^2), where x is at most that of the base.
+    /// 3/4 h cos(a)) = W^2 cot(a) (I cos(a)^2 + J sin(a)^2), where x is at most the length of the
+    /// line.
     static double lifting(const Size& size) {
         const double r = size.radius, h = size.height;
         const double c = std::cos(size.lean()), s = std::sin(size.lean());
-        const double along = 0.3 * r * r, across = 0.15 * r * r + 0.6 * h * h;  // per mass
+        const double along = 0.3 * r * r, across = 0.15 * r * r + 0.6 * h * h;  // per unit mass
         return std::sqrt(kGravity * (h / c - 0.75 * h * c) /
                          (c / s * (along * c * c + across * s * s)));
     }
@@ -62,7 +63,7 @@ struct Roll {
         world.set_motion({1}, turns.cross(X.p), turns);
         return world;
     }
-    /// Kinetic and potential energy per mass [J/kg].
+    /// Kinetic and potential energy per unit mass [J/kg].
     double energy(const BodyState& now) const {
         const double r = size.radius, h = size.height;
         const Vec3 arm = now.X_WB.R * Vec3(0, 0, -h / 4);
@@ -87,7 +88,7 @@ frame::DynamicsSettings awake_with(contact::Solver solver) {
     return settings;
 }
 
-/// Rolls for a second.
+/// Rolls for a second, and checks that the cone follows a circle.
 void expect_circle(const Roll& roll, World& world) {
     const double radius = on_its_side(roll.size).p.head<2>().norm();
     double last = roll.energy(world.state({1}));
@@ -141,7 +142,7 @@ TEST(Cone, LiftsItsTipWhereItRollsFasterThanItsWeightHolds) {
     }
 }
 
-/// Sum of the vertical forces between the ground and the bodies on it.
+/// Sum of the vertical forces that the ground exerts on the bodies on it.
 double held_up(const World& world) {
     double out = 0;
     for (const contact::Contact& c : world.contacts()) out += std::abs(c.f_B_W.z());
@@ -207,7 +208,7 @@ TEST(Cone, ThatIsTiltedFallsBackOrOverByWhereItsCentreIs) {
     }
 }
 
-/// A slope down toward x.
+/// A slope that falls towards x.
 scene::Body slope(double angle, bool is_plane, double friction) {
     scene::Body out = is_plane ? plane() : table(friction);
     out.friction = friction;

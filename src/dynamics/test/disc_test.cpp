@@ -1,4 +1,4 @@
-// Euler's disc: a thin disc that rolls around on its edge.
+// Tests Euler's disc, i.e. a thin disc that rolls around on its edge.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -12,14 +12,13 @@ namespace {
 constexpr double kRadius = 0.0375;    // [m]
 constexpr double kThickness = 0.001;  // [m]
 constexpr double kHalf = kThickness / 2;
-const double kAcross = kRadius * kRadius / 4 + kThickness * kThickness / 12;  // per mass
+const double kAcross = kRadius * kRadius / 4 + kThickness * kThickness / 12;  // per unit mass
 const double kAlong = kRadius * kRadius / 2;
 
-/// The W about the vertical of a rolling disc tilted by `tilt` with its centre at rest. It
-/// turns about the line through its centre and its contact point, and its
-/// angular momentum L is turned by the moment of the contact force: W x L = c x m g. For a
-/// thin disc L = m r^2 / 4 W sin(tilt) along its radius, and W^2 = 4 g / (r sin(tilt)) (Moffatt
-/// 2000).
+/// The angular velocity W about the vertical of a rolling disc that is tilted by `tilt` and whose
+/// centre is at rest. The disc turns about the line through its centre and its contact point, and
+/// its angular momentum L is turned by the moment of the contact force: W x L = c x m g. For a thin
+/// disc L = m r^2 / 4 W sin(tilt) along its radius, and W^2 = 4 g / (r sin(tilt)) (Moffatt 2000).
 double steady(double tilt) {
     const double c = std::cos(tilt), s = std::sin(tilt);
     return std::sqrt(kGravity * (kRadius * c - kHalf * s) /
@@ -46,7 +45,7 @@ double tilt_of(const BodyState& now) {
     return std::acos((now.X_WB.R * Vec3::UnitZ()).z());
 }
 
-/// Energy per mass [J/kg].
+/// Energy per unit mass [J/kg].
 double energy(const BodyState& now) {
     const Vec3 w = now.X_WB.R.conjugate() * now.w_WB;
     return now.v_WB.squaredNorm() / 2 + w.cwiseAbs2().dot(Vec3(kAcross, kAcross, kAlong)) / 2 +
@@ -54,10 +53,10 @@ double energy(const BodyState& now) {
 }
 
 struct Spun {
-    double rate = 0;    ///< mean angular velocity about the vertical, in units of steady()
-    double tilted = 0;  ///< largest change of tilt, as a fraction
-    double gained = 0;  ///< gain of energy, as a fraction
-    bool told = false;  ///< whether unexplained energy is reported
+    double rate = 0;    ///< mean angular velocity about the vertical, relative to steady()
+    double tilted = 0;  ///< largest relative change in tilt
+    double gained = 0;  ///< relative gain in energy
+    bool told = false;  ///< whether unexplained energy was reported
 };
 
 Spun roll(double tilt, double time, double step) {
@@ -96,8 +95,8 @@ TEST(EulersDisc, RollsAroundTheFasterTheFlatterItLies) {
     }
 }
 
-/// The contact point moves around its edge by up to a tenth of a radian in a step.
-/// If it were assumed fixed, the disc would gain 6 % in a second.
+/// The contact point moves along the edge of the disc by up to a tenth of a radian in a step. If it
+/// were assumed to be fixed, the disc would gain 6 % of energy in a second.
 TEST(EulersDisc, KeepsItsEnergy) {
     for (const double tilt : kTilts) {
         const Spun coarse = roll(tilt, 1, kStep);

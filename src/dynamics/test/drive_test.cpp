@@ -1,5 +1,5 @@
-// Tests bodies that are driven: platforms that rise, shake and turn with bodies on them, and
-// bodies that are released in motion.
+// Tests driven bodies: platforms that rise, shake and turn with bodies on them, and bodies that are
+// released while in motion.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ World with_block() {
     return make({platform(), block({0, 0, 0.02}, 0.5)}, awake());
 }
 
-/// Oscillation of a platform along one axis about its position.
+/// Position at time t of a platform that oscillates along one axis.
 Vec3 swing(const Vec3& amplitude, double omega, double t) {
     return Vec3(0, 0, -0.02) + amplitude * (1 - std::cos(omega * t)) / 2;
 }
@@ -63,7 +63,7 @@ TEST(Driven, LiftsWhatStandsOnItWithItsWeightAndInertia) {
 }
 
 TEST(Driven, ThrowsWhatItLeavesBehind) {
-    // the platform's downward acceleration exceeds g, and the block flies from then on
+    // once the platform's downward acceleration exceeds g, the block is in free flight
     World world = with_block();
     constexpr double kAmplitude = 0.02, kOmega = 40;
     double highest = 0;
@@ -116,7 +116,7 @@ TEST(Driven, DragsWhatStandsOnItUpToFriction) {
 
 TEST(Driven, CarriesRound) {
     World world = make({platform(), block({0.1, 0, 0.02}, 0.8)}, awake());
-    constexpr double kSpeed = 3;  // [rad/s]: 0.9 m/s^2 toward the axis
+    constexpr double kSpeed = 3;  // [rad/s], i.e. 0.9 m/s^2 towards the axis
     for (int i = 1; i <= 500; ++i) {
         const double ramp = std::min(1.0, i / 200.0);
         const Quat before = world.state(kPlatform).X_WB.R;
@@ -131,7 +131,7 @@ TEST(Driven, CarriesRound) {
 }
 
 TEST(Driven, KeepsWhatLiesOnATurntableWhereItIs) {
-    // with another block on top, which needs a sixth of the available friction
+    // another block lies on top, and needs a sixth of the available friction
     for (size_t i = 0; i < enum_names(contact::Solver{}).size(); ++i) {
         frame::DynamicsSettings settings = awake();
         settings.solver = static_cast<contact::Solver>(i);

@@ -1,4 +1,4 @@
-// Random scenes for tests of the conservation of energy: boxes and balls, spinning, thrown at a
+// Random scenes for tests of energy conservation: spinning boxes and balls that are thrown at a
 // table.
 #pragma once
 
@@ -43,9 +43,9 @@ class EnergyScene {
         energy_ = energy();
     }
 
-    /// Steps, and returns the relative rise of the energy; negative if it fell. Potential energy is
-    /// measured from the table top, which no centre reaches, so that the energy is never near
-    /// zero.
+    /// Does one step, and returns the relative increase in energy, which is negative if the energy
+    /// fell. Potential energy is measured from the table top, which no body's centre reaches, so
+    /// that the energy is never near zero.
     double step() {
         world_->step(kStep);
         const double before = energy_;
@@ -53,7 +53,7 @@ class EnergyScene {
         return (energy_ - before) / before;
     }
 
-    /// Whether the last step started with an overlap beyond rounding.
+    /// Whether the last step started with an overlap larger than rounding errors.
     bool overlapped() const {
         for (const contact::Contact& contact : world_->contacts()) {
             if (contact.gap < -1e-6) return true;

@@ -1,5 +1,5 @@
-// Tests that fast bodies do not enter each other, even if the contacts at the start of the step
-// do not foresee it.
+// Tests that fast bodies do not enter each other, even if this cannot be foreseen from the contacts
+// at the start of the step.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EnteredTest,
                          [](const auto& test) { return std::string(enum_name(test.param)); });
 
 TEST_P(EnteredTest, ABoxThatSpinsPastABlockStaysOutsideOfItAndGainsNoEnergy) {
-    // it spins by 0.4 rad per step, so that a corner next to a face swings into the face
+    // the box spins by 0.4 rad per step, so that one of its corners swings into the face next to it
     const Vec3 half = Vec3::Constant(0.02);
     for (uint64_t i = 0; i < 20; ++i) {
         Random random(i, "spin");
@@ -73,8 +73,8 @@ TEST_P(EnteredTest, ABoxThatSpinsPastABlockStaysOutsideOfItAndGainsNoEnergy) {
 }
 
 TEST_P(EnteredTest, ABodyStoppedInFrontOfAnotherIsNotEntered) {
-    // both move in the same way, so their contact is unforeseen; the support of the first holds the
-    // second
+    // both blocks have the same velocity, so their contact is not foreseen; the wall stops the
+    // first block, which stops the second one
     World world = weightless({slippery(box("wall", {0.1, 1, 1}, {0.05, 0, 0}, 0)),
                               slippery(block({-0.0210, 0, 0})), slippery(block({-0.0625, 0, 0}))});
     for (int i : {1, 2}) world.set_velocity({i}, {5, 0, 0});
@@ -88,7 +88,7 @@ TEST_P(EnteredTest, ABodyStoppedInFrontOfAnotherIsNotEntered) {
 }
 
 TEST_P(EnteredTest, ABallStoppedInFrontOfAnotherIsNotEntered) {
-    // as above, from beyond the search distance for round shapes
+    // like the blocks above, from beyond the search distance for round shapes
     const auto ball = [](double x) {
         scene::Body body = slippery(block({x, 0, 0}));
         body.shape.kind = scene::ShapeKind::sphere;
@@ -112,7 +112,7 @@ TEST_P(EnteredTest, ACapsuleThatSlapsDownOnOneEndMeetsWithTheOtherInTime) {
     capsule.shape.kind = scene::ShapeKind::capsule;
     capsule.shape.radius = 0.01;
     capsule.shape.length = 0.1;
-    capsule.rotation.y() = std::numbers::pi / 2 - 0.4;  // rests on one end, falls with the other
+    capsule.rotation.y() = std::numbers::pi / 2 - 0.4;  // rests on one end while the other falls
     capsule.position.z() = 0.01 + 0.05 * std::sin(0.4) + 1e-4;
     World world = weightless({slippery(table()), capsule});
     world.set_velocity({1}, {0, 0, -4});
@@ -130,7 +130,7 @@ TEST_P(EnteredTest, ACapsuleThatSlapsDownOnOneEndMeetsWithTheOtherInTime) {
 }
 
 TEST_P(EnteredTest, AFingerThatComesFreeGoesThroughNothing) {
-    // 70 mm in a step, at an angle, so that initially no face of the block is opposite
+    // 70 mm in a step, at an angle, so that at first no face of the block is opposite the finger
     scene::Finger finger;
     finger.name = "finger";
     finger.shape = scene::Shape::box(Vec3::Constant(0.01));
@@ -142,7 +142,7 @@ TEST_P(EnteredTest, AFingerThatComesFreeGoesThroughNothing) {
     for (int step = 0; step < 3; ++step) {
         world.step(kStep);
         const Vec3 apart = world.states()[1].X_WB.p - world.states()[0].X_WB.p;
-        // the block may turn when it is hit off its centre
+        // the block may turn when it is hit off-centre
         const Mat3 R = world.states()[0].X_WB.R.toRotationMatrix();
         const Vec3 by_block = (R.transpose() * apart).cwiseAbs() - Vec3::Constant(0.02) -
                               0.005 * R.transpose().cwiseAbs() * Vec3::Ones();

@@ -1,5 +1,6 @@
-// Scenes as hard for the solvers as files permit, for tests and soaks: fingers press
-// on bodies of any size and mass, which are stacked, joined, on rails and deep inside each other.
+// Scenes that are as hard for the solvers as scene files permit, for tests and soak tests: fingers
+// press on bodies of any size and mass, which are stacked, joined, on rails, or deep inside each
+// other.
 #pragma once
 
 #include "base/number.h"
@@ -8,7 +9,7 @@
 
 namespace dihaptic::dynamics {
 
-/// A world of such a scene, with two fingers pressing from both sides.
+/// A world with an extreme scene, and two fingers that press from both sides.
 class Extreme {
   public:
     explicit Extreme(uint64_t seed, const frame::DynamicsSettings& settings = awake())
@@ -25,7 +26,7 @@ class Extreme {
 
     World& world() { return world_; }
 
-    /// Steps once, by tick number: the fingers squeeze, and shake.
+    /// Does one step, in which the fingers squeeze and shake as a function of the tick number.
     StepStatus step(int tick) {
         for (const BodyIndex finger : fingers_) {
             const double side = finger.value == fingers_[0].value ? 1 : -1;
@@ -34,7 +35,7 @@ class Extreme {
         }
         return world_.step(kStep);
     }
-    /// Whether a finger touches a body.
+    /// Whether a finger touches any body.
     bool touched() const {
         for (const contact::Contact& contact : world_.contacts()) {
             for (const BodyIndex finger : fingers_) {
@@ -52,15 +53,16 @@ class Extreme {
                 random_.uniform(-size, size)};
     }
 
-    /// The first body lies between the fingers; others are stacked on it, or scattered through it.
+    /// Creates the scene. The first body lies between the fingers; other bodies are stacked on it
+    /// or scattered through it.
     scene::Scene scene() {
         scene::Scene out;
         out.bodies.push_back(table());
         const int count = 1 + static_cast<int>(power(0, 1.6));
         const double size = power(-2, -0.7);
         const bool stacked = chance(0.5);
-        const double overlap = chance(0.5) ? random_.uniform(0, 1) : 0;  // of their size
-        const double masses = random_.uniform(0, 3);                     // orders of magnitude
+        const double overlap = chance(0.5) ? random_.uniform(0, 1) : 0;  // relative to the size
+        const double masses = random_.uniform(0, 3);  // range in orders of magnitude
         reach_ = size / 2;
         height_ = (0.5 - overlap * random_.uniform(0, 1)) * size;
         for (int i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// Bodies that nothing touches, against closed forms and conservation laws.
+// Compares bodies that touch nothing with closed forms and conservation laws.
 #include "dynamics/free_turn.h"
 
 #include <gtest/gtest.h>
@@ -18,8 +18,9 @@ Vec3 moments(const Vec3& size, double mass) {
     return mass / 12 * (Vec3::Constant(squared.sum()) - squared);
 }
 
-/// Angular velocity in the body's axes at t, starting with (0, w, w_z) about axes of
-/// ascending moments, by Jacobi's elliptic functions (Landau and Lifshitz, Mechanics, 37).
+/// Angular velocity at time t, in the body's axes, of a body that starts with (0, w_y, w_z) and has
+/// ascending moments of inertia, from Jacobi's elliptic functions (Landau and Lifshitz, Mechanics,
+/// 37).
 Vec3 by_elliptic_functions(const Vec3& I, double w_y, double w_z, double t) {
     const double twice_energy = I.y() * w_y * w_y + I.z() * w_z * w_z;
     const double momentum = std::pow(I.y() * w_y, 2) + std::pow(I.z() * w_z, 2);
@@ -29,7 +30,7 @@ Vec3 by_elliptic_functions(const Vec3& I, double w_y, double w_z, double t) {
     const double rate = std::sqrt((I.z() - I.y()) * below / (I.x() * I.y() * I.z()));
     const double k = std::sqrt((I.y() - I.x()) * above / ((I.z() - I.y()) * below));
     double cn, dn;
-    // the motion starts a quarter of a period later, where sn is 1
+    // the motion starts a quarter period later, where sn is 1
     const double quarter = std::comp_ellint_1(k);
     const double sn = boost::math::jacobi_elliptic(k, rate * t + quarter, &cn, &dn);
     return {std::sqrt(above / (I.x() * (I.z() - I.x()))) * cn,
@@ -37,7 +38,7 @@ Vec3 by_elliptic_functions(const Vec3& I, double w_y, double w_z, double t) {
             std::sqrt(below / (I.z() * (I.z() - I.x()))) * dn};
 }
 
-/// A brick in space that starts to turn.
+/// A world with a brick in space that starts to turn.
 World turning(const Vec3& size, const Vec3& w) {
     scene::Scene scene;
     scene.gravity = Vec3::Zero();
@@ -92,7 +93,7 @@ TEST(FreeTurn, KeepsMomentumAndEnergy) {
 }
 
 TEST(FreeTurn, GetsToTheSamePlaceWhateverTheStep) {
-    // checks also the angle about the angular momentum, which does not follow from the velocities
+    // also checks the angle about the angular momentum, which does not follow from the velocities
     const Vec3 w(3, 20, -7);
     World coarse = turning(kBrick, w);
     World fine = turning(kBrick, w);
@@ -122,14 +123,14 @@ TEST(FreeTurn, OfEqualMomentsStaysAsItIs) {
               Vec3::Zero());
 }
 
-/// A disc on a light spindle that stands on its tip, and precesses steadily: tilt and rate of
-/// precession.
+/// A disc on a light spindle that stands on its tip and precesses steadily, given its tilt and its
+/// rate of precession.
 struct Top {
     static constexpr double kRadius = 0.03, kHeight = 0.01, kTilt = 0.35;
     double spin, arm;
     double turning = kMass * kRadius * kRadius / 2;
     double across = kMass * (3 * kRadius * kRadius + kHeight * kHeight) / 12 + kMass * arm * arm;
-    /// The slow root of (I_1 cos t) W^2 - I_3 s W + m g l = 0.
+    /// The slow precession rate W, a root of (I_1 cos t) W^2 - I_3 s W + m g l = 0.
     double precession() const {
         const double a = across * std::cos(kTilt), b = turning * spin, c = kMass * kGravity * arm;
         return (b - std::sqrt(b * b - 4 * a * c)) / (2 * a);

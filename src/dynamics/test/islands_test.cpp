@@ -1,5 +1,5 @@
 // Tests that bodies which do not touch are solved separately: a held body is solved exactly,
-// independent of the rest of the world.
+// independently of the rest of the world.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace dihaptic::dynamics::islands_test {
 namespace {
 
-/// A block in the air between two pads, and a wall of loose bricks away from it.
+/// A world with a block held in the air between two pads and, away from it, a wall of loose bricks.
 World held_block(int columns, contact::Solver solver = contact::Solver::newton) {
     scene::Scene scene;
     scene.bodies = {table(), block({0, 0, 0.3})};
@@ -58,7 +58,7 @@ TEST(Islands, AHeapDoesNotCostTheHandItsExactness) {
         EXPECT_GE(beside.solve_stats().residual, beside.held_residual());
         ended += beside.solve_stats().ended ? 1 : 0;
     }
-    EXPECT_GT(ended, 100);  // a wall of some 200 contacts
+    EXPECT_GT(ended, 100);  // of a wall with some 200 contacts
     EXPECT_LT((alone.state({1}).X_WB.p - beside.state({1}).X_WB.p).norm(), 1e-9);
     EXPECT_NEAR(beside.state({1}).X_WB.p.z(), 0.3, 1e-3);
 }
@@ -98,7 +98,7 @@ TEST(Islands, AreSolvedApartWithWorkAndIterationsSummed) {
 }
 
 TEST(Carried, ImpulsesOutliveManyMoreContactsThanAreReserved) {
-    // a rocking block makes new points all the time: records of ended points are reused
+    // a rocking block keeps making new contact points: records of old points are reused
     frame::DynamicsSettings settings = awake();
     settings.max_contacts = 16;
     World world = make({table(), block({0, 0, 0.02})}, settings);

@@ -1,5 +1,5 @@
-// Tests joints in a world against closed forms: pendulums, springs, reactions, stops, mechanisms
-// with redundant joints.
+// Tests joints in a world against closed forms: pendulums, springs, reaction forces, stops, and
+// mechanisms with redundant joints.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ World make(std::vector<scene::Body> bodies, std::vector<scene::Joint> joints,
 constexpr double kSide = 0.04, kMass = 0.1, kArm = 0.25;
 constexpr double kInertia = kMass * kSide * kSide / 6;
 
-/// A cube that hangs from the origin by a hinge about y, turned by `angle` from its rest position.
+/// A cube that hangs from a hinge about y at the origin, turned by `angle` from its rest position.
 World pendulum(double angle, double friction = 0) {
     scene::Body bob =
         box("bob", Vec3::Constant(kSide), kArm * Vec3(std::sin(angle), 0, -std::cos(angle)), kMass);
@@ -38,7 +38,7 @@ World pendulum(double angle, double friction = 0) {
     return make({bob}, {hinge});
 }
 
-/// Times at which the coordinate passes `middle` upward, by interpolation [s].
+/// Times at which the coordinate passes `middle` upwards, by interpolation [s].
 std::vector<double> passes(World& world, double middle, double duration) {
     std::vector<double> out;
     double before = world.joints()[0].position - middle;
@@ -86,8 +86,8 @@ TEST(Pendulum, NeitherDriftsFromItsHingeNorGainsOrLosesEnergyInAMinute) {
 }
 
 TEST(Pendulum, CarriesItsWeightAndItsTurn) {
-    // at the lowest point of a swing from the horizontal the hinge carries three times the weight
-    // of a point; the cube's inertia adds its part
+    // at the lowest point of a swing from the horizontal, the hinge would carry three times the
+    // weight of a point mass; the cube's inertia adds to this
     World world = pendulum(90 * kDegree);
     const double about_hinge = kInertia + kMass * kArm * kArm;
     double most = 0;
@@ -105,7 +105,7 @@ TEST(Pendulum, CarriesItsWeightAndItsTurn) {
 }
 
 TEST(Pendulum, OfTwoArmsMovesAsItsEquationsSay) {
-    // two equal cubes; angles from the vertical, integrated by Runge and Kutta
+    // two equal cubes; their angles from the vertical are integrated with the Runge-Kutta method
     const double m = kMass, l = kArm, about = kInertia;
     const auto accelerations = [&](const Eigen::Vector4d& s) {
         const double a = s[0], b = s[1], da = s[2], db = s[3];
@@ -122,8 +122,8 @@ TEST(Pendulum, OfTwoArmsMovesAsItsEquationsSay) {
     for (int half = 0; half < 2; ++half) {
         const double h = half ? kStep / 2 : kStep;
         Eigen::Vector4d s(90 * kDegree, 60 * kDegree, 0, 0);
-        // a step's velocities are those of its middle: a body that starts at rest was at rest half
-        // a step before
+        // velocities in a step are those of its middle: a body that starts at rest was at rest half
+        // a step earlier
         s.tail<2>() = h / 2 * accelerations(s).tail<2>();
         const auto at = [&](double a, double b) -> std::pair<Vec3, Vec3> {
             const Vec3 first = l * Vec3(std::sin(a), 0, -std::cos(a));
@@ -170,8 +170,8 @@ TEST(Spring, HoldsAWeightWhereHookeSays) {
 }
 
 TEST(Spring, SwingsAndLosesAmplitudeAsItsDiscretisationSays) {
-    // the step's matrix of (q, h u) has the determinant D and the trace T below: amplitudes fall by
-    // sqrt(D) in a step, and the phase grows by acos(T / 2 / sqrt(D))
+    // the matrix that advances (q, h u) by a step has the determinant D and the trace T below:
+    // amplitudes fall by sqrt(D) per step, and the phase grows by acos(T / 2 / sqrt(D))
     for (const double hertz : {1.0, 5.0, 15.0, 40.0, 100.0}) {
         const double w = 2 * std::numbers::pi * hertz;
         scene::Joint slider = joint(JointKind::slider, {"block"}, {0, 0, 0.2}, Vec3::UnitX());
@@ -184,7 +184,7 @@ TEST(Spring, SwingsAndLosesAmplitudeAsItsDiscretisationSays) {
         const double D = (1 + theta * s * (1 - delta)) / (1 + theta * s);
         const double T = 1 + D - s / (1 + theta * s);
         const double phase = std::acos(T / 2 / std::sqrt(D));
-        // q_n = A D^(n/2) cos(phase n + c), from two of its values
+        // q_n = A D^(n/2) cos(phase n + c), where A and c follow from two values of q
         const auto q = [&] { return world.joints()[0].position - slider.rest; };
         const double q0 = q();
         world.step(kStep);
@@ -222,7 +222,8 @@ TEST(Spring, ThatIsStiffOnAGramComesToRest) {
     }
 }
 
-/// A block of kMass on a slider along x, without gravity's pull along it, with a spring's curve.
+/// A block of kMass on a slider along x, along which gravity does not act, with a spring that has a
+/// curve.
 World on_a_curve(const scene::SpringCurve& curve, double rest, double damping) {
     scene::Joint slider = joint(JointKind::slider, {"block"}, {0, 0, 0.2}, Vec3::UnitX());
     slider.curve = curve;
@@ -232,8 +233,8 @@ World on_a_curve(const scene::SpringCurve& curve, double rest, double damping) {
 }
 
 TEST(SpringWithACurve, SwingsAsItsClosedFormSays) {
-    // no force within +-d, and 40 N/m beyond: half a swing of a spring at each end, and the gap
-    // twice at the highest speed w (A - d)
+    // no force within +-d, and 40 N/m beyond: half a period of a spring at each end, and the gap
+    // twice, at the highest speed w (A - d)
     constexpr double kGap = 0.005, kAmplitude = 0.02, kStiff = 40;
     World world = on_a_curve(
         {{-1, -kGap, kGap, 1}, {-kStiff * (1 - kGap), 0, 0, kStiff * (1 - kGap)}}, -kAmplitude, 0);
@@ -246,7 +247,7 @@ TEST(SpringWithACurve, SwingsAsItsClosedFormSays) {
 }
 
 TEST(SpringWithACurve, GivesWayBeyondItsPeakAndHoldsBeforeIt) {
-    // like a clicking key: 2 N at 5 mm, 0.5 N at 6 mm, 3 N at 16 mm
+    // like a clicking key: 2 N at 5 mm, 0.5 N at 6 mm, and 3 N at 16 mm
     const scene::SpringCurve key{{0, 0.005, 0.006, 0.016}, {0, 2, 0.5, 3}};
     for (const auto& [force, rests_at] : {std::pair{1.9, 0.00475}, {2.1, 0.0124}, {0.4, 0.001}}) {
         World world = on_a_curve(key, 0, 30);
@@ -293,8 +294,8 @@ TEST(Hinge, StopsAndRubs) {
     EXPECT_NEAR(least, -0.5, 1e-6);
     EXPECT_NEAR(world.joints()[0].position, -0.5, 1e-6);
     EXPECT_NEAR(world.joints()[0].torque_W.y(), -kMass * kGravity * kArm * std::cos(0.5), 1e-6);
-    // dry friction above the weight's moment holds the pendulum; with less, it falls by the
-    // difference
+    // dry friction larger than the moment of the weight holds the pendulum; with less friction, it
+    // falls by the difference
     World held = pendulum(90 * kDegree, 1.01 * kMass * kGravity * kArm);
     for (int i = 0; i < 500; ++i) held.step(kStep);
     EXPECT_NEAR(held.joints()[0].position, 0, 1e-9);
@@ -305,7 +306,7 @@ TEST(Hinge, StopsAndRubs) {
                 1e-5);
 }
 
-/// A ball that hangs at `place` from the origin by a distance joint.
+/// A ball at `place` that hangs from the origin on a distance joint.
 World hanging(const Vec3& place, const std::function<void(scene::Joint&)>& change = {}) {
     scene::Body ball;
     ball.name = "ball";
@@ -319,13 +320,13 @@ World hanging(const Vec3& place, const std::function<void(scene::Joint&)>& chang
     return make({ball}, {string});
 }
 
-/// A conical pendulum: at w^2 = g / (l cos theta) it keeps its height, and the rod carries
+/// A conical pendulum: at w^2 = g / (l cos theta), it stays at the same height, and the rod carries
 /// m g / cos theta.
 TEST(Distance, IsARodThatABallCirclesOn) {
     const double theta = 30 * kDegree;
     const double omega = std::sqrt(kGravity / (kArm * std::cos(theta)));
     World world = hanging(kArm * Vec3(std::sin(theta), 0, -std::cos(theta)));
-    // velocities are those of the middle of a step: here of the previous step
+    // velocities are those in the middle of a step, here of the previous step
     const double before = omega * kStep;
     world.set_velocity(
         {0}, kArm * std::sin(theta) / kStep * Vec3(1 - std::cos(before), std::sin(before), 0));
@@ -364,7 +365,7 @@ TEST(Distance, IsARopeThatPullsOnceItIsTaut) {
             EXPECT_NEAR(world.joints()[0].force_W.z(), kMass * kGravity, 1e-6);
         }
     }
-    world.set_velocity({0}, Vec3(0, 0, 1));  // and the rod never pushes
+    world.set_velocity({0}, Vec3(0, 0, 1));  // the rod never pushes
     world.step(kStep);
     EXPECT_EQ(world.joints()[0].force_W.norm(), 0);
 }
@@ -382,8 +383,8 @@ TEST(Distance, IsAnElasticBandOfItsOwnFrequency) {
     EXPECT_NEAR(period / (2 * std::numbers::pi * std::sqrt(kMass / kBand)), 1, 1e-3);
 }
 
-/// Two balls on a rod spin about their midpoint, which stays in place: they are held only by each
-/// other.
+/// Two balls joined by a rod, and held only by each other, spin about their midpoint, which stays
+/// in place.
 TEST(Distance, JoinsTwoThatFly) {
     std::vector<scene::Body> balls;
     for (const double side : {-1.0, 1.0}) {
@@ -424,7 +425,7 @@ TEST(Universal, TurnsAboutTwoAxesAndCarriesTorqueAboutTheThird) {
 }
 
 TEST(Joints, MoreThanAreNeededDoNotFightEachOther) {
-    // a door on three hinges, and a four-bar linkage, swung for ten seconds
+    // a door on three hinges, and a four-bar linkage, are swung for ten seconds
     scene::Body door = box("door", {0.4, 0.02, 0.8}, {0.2, 0, 0.5}, 2);
     std::vector<scene::Joint> hinges;
     for (const double z : {0.2, 0.5, 0.8})
@@ -453,7 +454,7 @@ TEST(Joints, MoreThanAreNeededDoNotFightEachOther) {
     four.apply({1}, {5, 0, 0}, Vec3::Zero());
     for (int i = 0; i < 5000; ++i) {
         four.step(kStep);
-        // a parallelogram: the middle of the top is on a circle about the middle of the base
+        // in a parallelogram, the top's midpoint moves on a circle about the base's midpoint
         EXPECT_NEAR((four.states()[1].X_WB.p - Vec3(0.15, 0, 0)).norm(), 0.2, 1e-5) << i;
     }
 }
@@ -481,7 +482,7 @@ TEST(Joints, SleepAndWakeWithWhatTheyJoin) {
 }
 
 TEST(Joints, TakeBodiesThatSpinFasterThanAStepCanFollow) {
-    // a light arm on a ball joint is accelerated endlessly
+    // a light arm on a ball joint is accelerated without end
     scene::Body arm = box("arm", {0.05, 0.005, 0.005}, {0.025, 0, 0}, 1e-3);
     World world = make({arm}, {joint(JointKind::ball, {"arm"}, Vec3::Zero())});
     const double fastest = std::numbers::pi / 4 / kStep;
@@ -507,7 +508,7 @@ TEST(Distance, WithAStiffSpringOnALightBodyThatSpinsGivesItNoEnergy) {
     scene.joints = {band};
     World world(scene, awake());
     world.activate();
-    const double fastest = 0.04 * std::numbers::pi / 4 / kStep;  // of any point of the bead
+    const double fastest = 0.04 * std::numbers::pi / 4 / kStep;  // for all points of the bead
     for (int i = 0; i < 3000; ++i) {
         if (i < 500) world.apply({0}, Vec3::Zero(), {2e-3, 3e-3, 2.5e-3});
         ASSERT_EQ(world.step(kStep), StepStatus::ok) << i;

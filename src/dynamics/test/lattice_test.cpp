@@ -1,5 +1,5 @@
-// Tests lattices in a world against the theory of bars and beams: they are pulled, bent, twisted
-// and pressed, and swing.
+// Tests lattices in a world against the theory of bars and beams: they are pulled, bent, twisted,
+// pressed, and set swinging.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLength = 0.2, kWide = 0.02, kHigh = 0.01, kYoung = 1e7;
 constexpr double kArea = kWide * kHigh;
-constexpr double kSecondMoment = kWide * kHigh * kHigh * kHigh / 12;  // for bending down
+constexpr double kSecondMoment = kWide * kHigh * kHigh * kHigh / 12;  // for downward bending
 constexpr int kBlocks = 10;
 constexpr double kBlock = kLength / kBlocks;
 
@@ -43,8 +43,8 @@ World make(const scene::Lattice& lattice, std::vector<scene::Body> bodies = {},
     return world;
 }
 
-/// Displacement of the rod's end after it has come to rest under a force there and a torque on the
-/// last block, in the rod's axes, which are turned by R.
+/// Displacement of the rod's end, once it has come to rest under a force on the end and a torque on
+/// the last block. All are in the rod's axes, which are turned by R.
 Pose end_under(const Vec3& force, const Vec3& torque, const Quat& R = Quat::Identity()) {
     scene::Lattice lattice = rod();
     if (!R.isApprox(Quat::Identity())) lattice.rotation = {0.3, -0.4, 0.5};
@@ -64,7 +64,7 @@ Pose end_under(const Vec3& force, const Vec3& torque, const Quat& R = Quat::Iden
 }
 
 TEST(Lattice, IsStretchedAsABar) {
-    // the last block's outer half is rigid
+    // the outer half of the last block is rigid
     const double expected = 3.0 * (kLength - kBlock / 2) / (kYoung * kArea);
     EXPECT_NEAR(end_under({3, 0, 0}, Vec3::Zero()).p.x() / expected, 1, 1e-5);
 }
@@ -73,7 +73,7 @@ TEST(Lattice, BendsAsABeam) {
     constexpr double kForce = 0.01;
     const double expected = kForce * std::pow(kLength, 3) / (3 * kYoung * kSecondMoment);
     EXPECT_NEAR(end_under({0, 0, -kForce}, Vec3::Zero()).p.z() / -expected, 1, 0.01);
-    // bent across its broad side it is stiffer by the square of the ratio of its sides
+    // when bent across its broad side, the rod is stiffer by the square of the ratio of its sides
     const double stiffer = kWide * kWide / kHigh / kHigh;
     EXPECT_NEAR(end_under({0, kForce * stiffer, 0}, Vec3::Zero()).p.y() / expected, 1, 0.01);
 }
@@ -100,7 +100,7 @@ TEST(Lattice, SwingsAtTheFrequencyOfABeam) {
     World world = make(lattice);
     constexpr int kLast = kBlocks - 1;
     const auto z = [&] { return world.states()[kLast].X_WB.p.z(); };
-    for (int i = 0; i < 300; ++i) {  // pushed slowly, then released
+    for (int i = 0; i < 300; ++i) {  // push slowly, then release
         world.apply({kLast}, {0, 0, 0.01 * std::min(1.0, i / 250.0)}, Vec3::Zero());
         world.step(kStep);
     }
@@ -114,7 +114,7 @@ TEST(Lattice, SwingsAtTheFrequencyOfABeam) {
     }
     ASSERT_GT(times.size(), 10u);
     const double hertz = static_cast<double>(times.size() - 1) / (times.back() - times.front());
-    const double root = 1.8751;  // the first root of cos x cosh x = -1
+    const double root = 1.8751;  // first root of cos x cosh x = -1
     const double expected = root * root / (2 * std::numbers::pi) *
                             std::sqrt(kYoung * kSecondMoment / (0.05 * std::pow(kLength, 3)));
     EXPECT_NEAR(hertz / expected, 1, 0.02);
@@ -145,7 +145,7 @@ TEST(Lattice, IsPressedAsABlockOfItsMaterial) {
     EXPECT_LT(world.states()[0].X_WB.p.tail<2>().norm(), 1e-7);
 }
 
-/// A cube of eight blocks, and two jaws next to it that are larger than its sides.
+/// A cube of eight blocks, with two jaws next to it that are larger than its faces.
 struct Squeezed {
     scene::Lattice lattice = sponge();
     World world;
@@ -187,7 +187,7 @@ struct Squeezed {
 
 TEST(Lattice, IsSqueezedFromOutsideAsABlockOfItsMaterial) {
     Squeezed squeezed(Vec3::Zero());
-    // without gravity, the force that holds the jaws' weight lifts them
+    // there is no gravity, so the force that would hold the jaws' weight lifts them
     for (int i = 0; i < 2000; ++i) {
         squeezed.world.apply({1}, {1, 0, 0}, Vec3::Zero());
         squeezed.world.apply({2}, {-1, 0, 0}, Vec3::Zero());

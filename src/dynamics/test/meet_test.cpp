@@ -1,4 +1,4 @@
-// Overlapping bodies, however deep, have a contact as deep as the overlap.
+// Tests that overlapping bodies, however deep, have a contact as deep as their overlap.
 #include "dynamics/bullet/shape.h"
 #include "dynamics/test/shots.h"
 

@@ -1,5 +1,5 @@
-// Tests motors of joints against closed forms: their push, their target, their force
-// on obstacles, and their arrival.
+// Tests joint motors against closed forms: their push, how they reach their target, and their force
+// on obstacles.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 constexpr double kMass = 0.1, kSide = 0.04;
 constexpr double kInertia = kMass * kSide * kSide / 6;
 
-/// A block that slides along x in mid-air.
+/// A rail on which a block slides along x in mid-air.
 scene::Joint rail() {
     return joint(scene::JointKind::slider, {"block"}, {0, 0, 0.2}, Vec3::UnitX());
 }
@@ -87,7 +87,7 @@ TEST(Motor, FollowsAPathAgainstFrictionAndLoads) {
         world.apply({0}, {2, 0, 0}, Vec3::Zero());
         world.step(kStep);
         ASSERT_NEAR(world.joints()[0].position, to, 1e-7) << t;
-        // the motor's force is the force that the path requires, less the push
+        // the motor's force is the force that the path requires, minus the push
         if (i > 2) {
             const double acceleration = 0.03 * 100 * std::cos(10 * (t - kStep));
             ASSERT_NEAR(world.joints()[0].force_W.x(), kMass * acceleration - 2, 0.01) << t;
@@ -108,7 +108,7 @@ TEST(Motor, PressesNoHarderThanItCan) {
     EXPECT_NEAR(world.joints()[0].position, 0.02, 1e-6);
 }
 
-/// Overshoot of the block on a path of 10 cm, and its final position.
+/// Returns by how much the block overshoots on a path of 10 cm, and its final position.
 std::pair<double, double> arrives(double most, double load, bool tells_early) {
     World world = make({block({0, 0, 0.2})}, rail());
     double beyond = 0;
@@ -126,7 +126,7 @@ TEST(Motor, ThatIsFarFromItsEndStopsThere) {
     for (const double most : {0.01, 0.1, 1.0, 10.0, 1000.0}) {
         for (const bool tells_early : {true, false}) {
             const auto [beyond, end] = arrives(most, 0, tells_early);
-            // stopping from 0.1 m/s at an unforeseen end takes a distance of v^2 / 2 a
+            // stopping from 0.1 m/s at an unforeseen end takes a distance of v^2 / (2 a)
             const double foreseen = tells_early ? 0 : 0.01 / (2 * most / kMass);
             EXPECT_LT(beyond, foreseen + 1e-3) << most << " " << tells_early;
             EXPECT_NEAR(end, 0.1, most < 0.1 ? 5e-3 : 1e-6) << most << " " << tells_early;
@@ -157,7 +157,7 @@ TEST(JointProperties, ChangeSpringDamperAndFriction) {
     EXPECT_NEAR(settled({}), -sag, 1e-6);
     EXPECT_NEAR(settled({.stiffness = 0.5}), -2 * sag, 1e-6);
     EXPECT_NEAR(settled({.stiffness = 2}), -sag / 2, 1e-6);
-    // without a spring the block falls at the speed at which the damper supports it
+    // without a spring, the block falls at the speed at which the damper supports its weight
     world.set_joint_properties(0, {.stiffness = 0, .damping = 3});
     for (int i = 0; i < 1000; ++i) world.step(kStep);
     EXPECT_NEAR(world.joints()[0].velocity, -kMass * kGravity / 15, 1e-6);

@@ -56,7 +56,7 @@ TEST(Collide, ACornerPointingDownTouchesWithItsVertex) {
 }
 
 TEST(Collide, CrossedEdgesTouchInOnePoint) {
-    // two cubes that each stand on an edge, one above the other, edges crossed at a right angle
+    // two cubes that stand on an edge, one above the other, their edges crossed at right angles
     const double eighth = std::numbers::pi / 4;
     const double half_diagonal = 0.02 * std::numbers::sqrt2;
     const Pose lower{rotation_xyz({eighth, 0, 0}), {0, 0, 0}};

@@ -1,5 +1,5 @@
-// Contacts of round shapes: distances compared with a search over all directions, and
-// rolling, lying and sliding bodies compared with closed forms.
+// Tests contacts of round shapes: distances are compared with a search over all directions, and
+// rolling, lying and sliding bodies with closed forms.
 #include "dynamics/round.h"
 
 #include <gtest/gtest.h>
@@ -38,8 +38,9 @@ double extent(const Polyhedron& shape, const Pose& X_W, const Vec3& u) {
     return out;
 }
 
-/// Distance between convex shapes: the largest separation along any direction, found by shrinking
-/// random steps from the best of many directions, or from the one given.
+/// Distance between convex shapes, i.e. the largest separation along any direction. It is found by
+/// random steps of shrinking size, starting from the best of many directions or from the given
+/// direction.
 template <class A, class B>
 double apart(const A& a, const Pose& X_WA, const B& b, const Pose& X_WB, std::mt19937& random,
              const Vec3& start = Vec3::Zero()) {
@@ -63,7 +64,7 @@ double apart(const A& a, const Pose& X_WA, const B& b, const Pose& X_WB, std::mt
     return best;
 }
 
-/// The smallest gap of a patch; a large number if there is no contact.
+/// The smallest gap of a patch, or a large number if there is no contact.
 double gap(const ContactPatch& patch) {
     double out = 1;
     for (int i = 0; i < patch.count; ++i)
@@ -71,8 +72,8 @@ double gap(const ContactPatch& patch) {
     return out;
 }
 
-/// Moves B towards A or away until they are a few tenths of a millimetre apart, as in each step.
-/// `off` is the tolerance of contacts [m].
+/// Moves B towards A or away from it until they are a few tenths of a millimetre apart, as they are
+/// in each step, and compares their contacts. `off` is the tolerance [m].
 template <class A, class B>
 void compare(const A& a, const B& b, double off, std::mt19937& random) {
     std::normal_distribution<> normal;
@@ -86,7 +87,7 @@ void compare(const A& a, const B& b, double off, std::mt19937& random) {
     for (int i = 0; i < 6; ++i) X_WB.p -= (apart(a, X_WA, b, X_WB, random) - wanted) * way;
     const double right = apart(a, X_WA, b, X_WB, random);
     const double margin = 1e-3;
-    if (right > margin) return;  // it has passed
+    if (right > margin) return;  // B has passed A
     ContactPatch patch;
     if constexpr (std::is_same_v<A, Polyhedron>) {
         patch = collide(a, X_WA, b, X_WB, margin, -way);
@@ -108,7 +109,7 @@ TEST(Round, ShapesAreAsFarApartAsAlongTheBestOfAllDirections) {
     std::mt19937 random(1);
     for (const Round& a : kRounds) {
         for (const Round& b : kRounds) {
-            // rims of cylinders have kinks where the search does not always find a better direction
+            // rims of cylinders have kinks, where the search may not find a better direction
             const double off = a.has_rim() || b.has_rim() ? 3e-4 : 2e-5;
             for (int i = 0; i < 20; ++i) compare(a, b, off, random);
         }
@@ -130,7 +131,7 @@ TEST(Round, LiesOnALineAndStandsOnItsRim) {
     patch = collide_half_space({}, can, {Quat::Identity(), {0, 0, 0.03}}, 5e-4);
     EXPECT_EQ(patch.count, 4);
     for (const ContactPoint& point : patch.points) EXPECT_NEAR(point.gap, 0, 1e-12);
-    // lying across an edge of a box, the can touches it at one point; lying along the edge, at two
+    // a can that lies across an edge of a box touches it at one point; along the edge, at two
     const Pose above{rotation_by(std::numbers::pi / 4 * Vec3::UnitY()), {0, 0, 0}};
     const Quat along = rotation_by(std::numbers::pi / 2 * Vec3::UnitX());
     const Vec3 on_edge = above.R * Vec3(-0.02, 0, 0.015) + 0.02 * Vec3::UnitZ();
@@ -196,7 +197,7 @@ TEST(Round, WhatRollsOnALevelGoesOnAsItWas) {
 }
 
 TEST(Round, ACanThatIsTiltedFallsBackOrOverByWhereItsCentreIs) {
-    // beyond atan(r / half) the can's centre is past its rim
+    // beyond atan(r / half), the can's centre is past its rim
     for (const Vec3& way : {Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(0.3, 1, 0)}) {
         const double limit = std::atan(0.02 / 0.03);
         for (const double share : {0.97, 1.03}) {

@@ -1,6 +1,6 @@
-// Shots of all convex shapes at thin plates, into cups and at each other, up to 100 m/s, and a
-// test of passage independent of the World: points spread over a body
-// give its depth in another.
+// Shots of convex shapes at thin plates, into cups and at each other, at up to 100 m/s. A check
+// that is independent of World detects passage: points spread over a body give its depth in another
+// body.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,12 +15,12 @@
 
 namespace dihaptic::dynamics {
 
-/// A random vector from the centre of a cube with sides of 2 to any point in it.
+/// A random vector from the centre of a cube with sides of length 2 to any point in the cube.
 inline Vec3 any_direction(Random& random) {
     return {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
 }
 
-/// Depth of the point p_B below a shape's surface [m]; negative outside.
+/// Depth of the point p_B below the surface of a shape [m]; negative outside.
 inline double depth_in(const scene::Shape& shape, const Vec3& p_B) {
     const double across = std::hypot(p_B.x(), p_B.y());
     const double half = shape.length / 2;
@@ -45,7 +45,7 @@ inline double depth_in(const scene::Shape& shape, const Vec3& p_B) {
     }
 }
 
-/// Points in and on a shape, in its frame.
+/// Points in and on a shape, in the frame of the shape.
 inline std::vector<Vec3> points_of(const scene::Shape& shape, Random& random) {
     const double half = shape.length / 2;
     const double round = shape.kind == scene::ShapeKind::capsule ? half + shape.radius : half;
@@ -57,7 +57,7 @@ inline std::vector<Vec3> points_of(const scene::Shape& shape, Random& random) {
         const Vec3 p = any_direction(random);
         const Vec3 inside = p.cwiseProduct(bounds);
         if (depth_in(shape, inside) < 0) continue;
-        // moved as far out as the shape allows
+        // move the point as far out as the shape allows
         double low = 1, high = 100;
         for (int i = 0; i < 40; ++i) {
             const double middle = (low + high) / 2;
@@ -69,7 +69,7 @@ inline std::vector<Vec3> points_of(const scene::Shape& shape, Random& random) {
     return out;
 }
 
-/// A body of any convex shape, including thin ones, about 2 to 40 mm across.
+/// A body of any convex shape, which may be thin, about 2 to 40 mm across.
 inline scene::Body any_body(const std::string& name, Random& random) {
     scene::Body body;
     body.name = name;
@@ -112,7 +112,8 @@ inline scene::Body any_body(const std::string& name, Random& random) {
     return body;
 }
 
-/// Largest depth of one body's points in the other, or distance if outside [m].
+/// Largest depth of any point of one body in the other body [m], or the negative distance if all
+/// are outside.
 inline double overlap_of(const scene::Body& a, const Pose& X_WA, const std::vector<Vec3>& of_a,
                          const scene::Body& b, const Pose& X_WB, const std::vector<Vec3>& of_b) {
     double out = -1;
@@ -129,13 +130,14 @@ struct Shot {
     scene::ShapeKind shape = scene::ShapeKind::box;
     double speed = 0;  ///< [m/s]
     bool passed = false;
-    bool silent = false;  ///< held back without a report
-    double deepest = 0;   ///< at the ends of steps [m]
+    bool silent = false;  ///< whether a body was held back without a report
+    double deepest = 0;   ///< largest overlap at the end of a step [m]
 };
 
 struct Shots {
     int passed = 0;
-    int deep = 0;        ///< shots deeper than 0.5 mm in their target at the end of a step
+    int deep = 0;        ///< number of shots that were more than 0.5 mm deep in their target at the
+                         ///< end of a step
     double deepest = 0;  ///< [m]
 };
 
@@ -171,9 +173,10 @@ class Shooting {
         world.activate();
         return world;
     }
-    /// A body that is not at the position given by its velocity was held back. The velocity of a
-    /// bouncing body is the next one, and that of a cone belongs to a point other than its centre
-    /// of rotation.
+    /// Does one step, and checks that bodies which were held back are reported: these are not at
+    /// the position given by their velocity. Bouncing bodies and cones are excluded, since a
+    /// bouncing body has its next velocity, and a cone's velocity is that of a point other than its
+    /// centre of rotation.
     void step(World& world) {
         const std::vector<BodyState> before(world.states().begin(), world.states().end());
         world.step(kStep);
@@ -200,7 +203,7 @@ class Shooting {
         }
     }
     void into_cup(scene::Body body) {
-        constexpr double kInner = 0.028, kFloor = 0.004, kTop = 0.08;  // [m], of a cup of 12 sides
+        constexpr double kInner = 0.028, kFloor = 0.004, kTop = 0.08;  // [m], cup with 12 sides
         static const scene::Body cup = body_from(
             "{name: cup, shape: mesh, file: ../meshes/cup.obj, unit: mm, concave: yes, fixed: "
             "yes}");
@@ -246,7 +249,7 @@ class Shooting {
         world.set_velocity({0}, share * v);
         world.set_velocity({1}, (share - 1) * v);
         const double ideal = deepest_on(body, other, of_other, v);
-        // at this overlap the centre of one is beyond that of the other
+        // with this overlap, the centre of one body is beyond that of the other
         const double passed = (thickness(points_) + thickness(of_other)) / 2;
         bool met = false;
         for (int i = 0; i < static_cast<int>(0.25 / (shot_.speed * kStep)) + 10; ++i) {
@@ -260,7 +263,7 @@ class Shooting {
         }
         shot_.passed = shot_.passed || (!met && ideal > 5e-4);
     }
-    /// Extent of the body with these points, along the axes of its frame [m].
+    /// Extent of a body along the axes of its frame, given its points [m].
     static double thickness(const std::vector<Vec3>& points) {
         Vec3 half = Vec3::Zero();
         for (const Vec3& p : points) half = half.cwiseMax(p.cwiseAbs());
@@ -271,7 +274,7 @@ class Shooting {
         for (const Vec3& p : points_) out = std::max(out, p.norm());
         return out;
     }
-    /// Largest depth of the two bodies in each other if nothing stopped them.
+    /// Largest depth of two bodies in each other if nothing stopped them.
     double deepest_on(const scene::Body& a, const scene::Body& b, const std::vector<Vec3>& of_b,
                       const Vec3& v) const {
         double out = -1;
@@ -290,7 +293,7 @@ class Shooting {
     std::vector<Vec3> points_;
 };
 
-/// Shots with these seeds, by each solver in turn.
+/// Fires shots with the given seeds, using each solver in turn.
 inline Shots shots(Shot::At at, uint64_t from, uint64_t count) {
     Shots out;
     for (uint64_t seed = from; seed < from + count; ++seed) {

@@ -1,4 +1,4 @@
-// A hundred shots of each kind (shots.h). `./dev soak` fires thousands.
+// Fires a hundred shots of each kind (shots.h). `./dev soak` fires thousands.
 #include "dynamics/test/shots.h"
 
 namespace dihaptic::dynamics::shots_test {

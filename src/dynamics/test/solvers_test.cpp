@@ -1,4 +1,4 @@
-// Tests the World with each of its solvers.
+// Tests World with each of its solvers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +33,7 @@ TEST_P(EachSolver, SlidesAsFarAsCoulombSays) {
     world.set_velocity({1}, {0.6, 0.3, 0});
     const double speed = std::hypot(0.6, 0.3);
     for (int i = 0; i < 400; ++i) world.step(kStep);
-    // semi-implicit Euler stops half a step's path short
+    // with semi-implicit Euler, the block stops half a step's path early
     const double distance = speed * speed / (2 * 0.5 * kGravity);
     EXPECT_NEAR(world.states()[1].X_WB.p.head<2>().norm(), distance, 0.6 * speed * kStep);
     EXPECT_LT(world.states()[1].v_WB.norm(), 1e-8);
@@ -47,7 +47,7 @@ TEST_P(EachSolver, NeverGainsEnergy) {
         EnergyScene scene(seed, settings);
         for (int i = 0; i < 1000; ++i) {
             const double rise = scene.step();
-            // overlapping bodies are pushed apart, which adds energy
+            // bodies that overlap are pushed apart, which adds energy
             EXPECT_TRUE(rise <= 1e-6 || scene.overlapped()) << "scene " << seed << ", step " << i;
         }
     }
@@ -110,7 +110,8 @@ TEST(Solvers, ChangeWhileRunningWithoutAJump) {
     EXPECT_NEAR(world.states()[2].X_WB.p.z(), 0.06, 1e-6);
 }
 
-/// A rod held by one end between two soft spheres, each pressed with `press`.
+/// A world with a rod held by one end between two soft spheres, each of which is pressed with
+/// `press`.
 World held_rod(contact::Solver solver, double radius) {
     scene::Scene scene;
     scene::Body rod = box("rod", {0.01, 0.2, 0.01}, {0, 0.09, 0.3}, 0.02);
@@ -131,7 +132,7 @@ World held_rod(contact::Solver solver, double radius) {
 }
 double turned_after(World& world, double press, double time) {
     for (double t = kStep / 2; t < time; t += kStep) {
-        // the fingers keep their height; the spheres' friction carries the rod's weight
+        // the fingers stay at the same height; the spheres' friction carries the rod's weight
         for (const int finger : {2, 3}) {
             const Vec3 v = world.state({finger}).v_WB;
             world.set_velocity({finger}, {v.x(), 0, 0});
@@ -145,7 +146,7 @@ double turned_after(World& world, double press, double time) {
 
 TEST(SoftFinger, HoldsARodByItsEndAndLetsItSwingWhenItEases) {
     // the moment of its weight about the pinch is 0.02 kg g 0.09 m = 17.7 mN m; two fingers of 12
-    // mm carry 2 mu r N = 19.2 mN m per N at mu 0.8, less the part that carries the weight
+    // mm carry 2 mu r N = 19.2 mN m per N at mu = 0.8, minus the part that carries the weight
     for (const contact::Solver solver :
          {contact::Solver::sequential_impulse, contact::Solver::stewart_trinkle,
           contact::Solver::staggered_projections, contact::Solver::newton}) {

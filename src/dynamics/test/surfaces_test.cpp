@@ -1,5 +1,5 @@
-// Tests surfaces in a world against closed forms: soft contacts, bounces, friction that falls with
-// speed, and viscous films.
+// Tests surfaces in a world against closed forms: soft contacts, bounces, friction that decreases
+// with speed, and viscous films.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace dihaptic::dynamics::surfaces_test {
 namespace {
 
-/// A world of a table, whose top is at z = 0, and one body on it.
+/// A world with a table, whose top is at z = 0, and one body on it.
 struct OnTable {
     scene::Body table = dynamics::table();
     scene::Body body;
@@ -54,14 +54,14 @@ TEST_P(OfEach, AreAsSoftAsTheySay) {
 }
 
 TEST(SoftSurfaces, SwingAtTheirFrequencyAndLoseLittle) {
-    // a block pressed into a surface by less than its weight oscillates as if on a spring
+    // a block pressed into a surface by less than its weight oscillates like a mass on a spring
     constexpr double kMass = 0.2;
     for (const double hz : {3.0, 8.0, 15.0}) {
         const double omega = 2 * std::numbers::pi * hz;
         const double k = kMass * omega * omega;
         const double sunk = kMass * kGravity / k;
         OnTable on(box("block", {0.05, 0.05, 0.2}, {0, 0, 0.1 - 0.6 * sunk}, kMass));
-        on.body.turns = scene::Axes::none;  // otherwise it would fall over
+        on.body.turns = scene::Axes::none;  // otherwise the body would fall over
         on.body.surface.stiffness = k;
         World world = on.make();
         std::vector<double> passes;
@@ -85,7 +85,7 @@ TEST(SoftSurfaces, SwingAtTheirFrequencyAndLoseLittle) {
 }
 
 TEST(SoftSurfaces, DampAsTheySay) {
-    // x = e^(-d t) cos(w t) with d = c / 2m, once the step's own contribution is small
+    // x = e^(-d t) cos(w t) with d = c / 2m, provided that the step's own contribution is small
     constexpr double kMass = 0.2, k = 400, c = 1.5;
     const double sunk = kMass * kGravity / k;
     OnTable on(box("block", {0.05, 0.05, 0.2}, {0, 0, 0.1 - 0.6 * sunk}, kMass));
@@ -119,7 +119,7 @@ double apex(World& world) {
     for (int i = 0; i < 5000; ++i) {
         world.step(kStep);
         const double v = world.state(kBody).v_WB.z();
-        // velocities are those of the middle of a step
+        // velocities are those in the middle of a step
         if (last > 0 && v <= 0) return world.state(kBody).X_WB.p.z() - 0.02 - kStep * v;
         last = v;
     }
@@ -153,14 +153,14 @@ TEST(BouncingSurfaces, ComeToRestAndNeverGainHeight) {
         EXPECT_LT(now, 0.51 * before);
         before = now;
     }
-    // 2 v / g (1 + e + e^2 + ...) = 1.1 s until it lies still
+    // the ball lies still after 2 v / g (1 + e + e^2 + ...) = 1.1 s
     for (int i = 0; i < 2000; ++i) world.step(kStep);
     EXPECT_NEAR(world.state(kBody).X_WB.p.z(), 0.02, 1e-6);
     EXPECT_NEAR(world.state(kBody).v_WB.z(), 0, 1e-9);
 }
 
-/// A ball without friction on ridges of 0.2 mm, a centimetre apart, that starts between two of
-/// them.
+/// A world with a frictionless ball on ridges 0.2 mm high and one centimetre apart. The ball starts
+/// between two of them.
 World on_ridges(double speed) {
     scene::Body table = box("table", {2, 0.4, 0.1}, {0, 0, -0.05}, 0);
     table.fixed = true;
@@ -183,7 +183,7 @@ World on_ridges(double speed) {
 }
 
 TEST(Ridges, SlowDownWhatClimbsThemAndGiveItBack) {
-    // over a ridge the square of the speed is less by 2 g h
+    // on top of a ridge, the square of the speed is smaller by 2 g h
     const double over = 2 * kGravity * 2e-4;
     World world = on_ridges(0.15);
     double slowest = 1, fastest = 0, last = 0;
@@ -209,7 +209,7 @@ TEST(Ridges, HoldWhatIsTooSlowForThem) {
         if (i < 1000) first = std::max(first, way);
         if (i >= 3000) last = std::max(last, way);
     }
-    // the ball turns back where its height is v^2 / 2 g
+    // the ball turns back at a height of v^2 / 2 g
     const double turns =
         0.01 / (2 * std::numbers::pi) * std::acos(1 - 2 * (0.05 * 0.05 / (2 * kGravity)) / 2e-4);
     EXPECT_NEAR(first, turns, 1e-4);
@@ -240,7 +240,7 @@ TEST(BouncingSurfaces, ThrowABlockBackFromAllItsCornersWithoutTurningIt) {
 }
 
 TEST(BouncingSurfaces, TakeWhatASpringGivesMeanwhile) {
-    // a paddle on a spring, released at -x0, hits a ball at rest at -x0 / 2
+    // a paddle on a spring is released at -x0 and hits a ball at rest at -x0 / 2
     constexpr double kMass = 0.1, kRate = 400, kStretch = 0.01;
     scene::Scene scene;
     scene.gravity.setZero();
@@ -261,10 +261,10 @@ TEST(BouncingSurfaces, TakeWhatASpringGivesMeanwhile) {
 }
 
 TEST(BouncingSurfaces, GiveADoublePendulumThatStrikesATableNoEnergy) {
-    // Kane and Levinson (1985): with friction, Newton's law alone would add energy
+    // Kane and Levinson (1985): if there is friction, Newton's law alone would add energy
     Random random(11, "strikes");
     for (int i = 0; i < 300; ++i) {
-        const double a = random.uniform(5, 60) * kDegree;  // from the vertical
+        const double a = random.uniform(5, 60) * kDegree;  // angle from the vertical
         const double b = random.uniform(5, 75) * kDegree;
         constexpr double kLength = 0.1;
         const Vec3 elbow = kLength * Vec3(std::sin(a), 0, -std::cos(a));
@@ -352,7 +352,7 @@ TEST_P(OfEach, KeepTheEnergyOfARowOfBallsWhateverItsGaps) {
             }
             EXPECT_NEAR(momentum, 1, 1e-3) << gap << " " << i;
         }
-        // each ball in turn passes on all its momentum
+        // each ball in turn passes on all of its momentum
         if (gap >= 5e-4) {
             EXPECT_NEAR(world.state({4}).v_WB.x(), speed, 0.01 * speed) << gap;
         }
@@ -360,7 +360,7 @@ TEST_P(OfEach, KeepTheEnergyOfARowOfBallsWhateverItsGaps) {
 }
 
 TEST(BouncingSurfaces, AreFeltByTheJointsOfWhatIsHit) {
-    // a ball that returns at its initial speed leaves twice its momentum in the joint
+    // a ball that returns at its initial speed has transferred twice its momentum to the joint
     scene::Scene scene;
     scene.gravity.setZero();
     scene.bodies = {ball(0, 1), ball(0, 1)};
@@ -381,7 +381,8 @@ TEST(BouncingSurfaces, AreFeltByTheJointsOfWhatIsHit) {
     EXPECT_NEAR(std::abs(impulse.x()), 2 * scene::mass(scene.bodies[1]) * speed, 1e-3);
 }
 
-/// Position and speed of a block on a table after some time, pushed by a force along x [N].
+/// Position and speed of a block on a table after some time during which a force along x [N] pushed
+/// it.
 struct Slid {
     double x = 0;
     double v = 0;
@@ -398,8 +399,8 @@ Slid slides(const OnTable& on, double speed, double force, double duration) {
     return {world.state(kBody).X_WB.p.x() - from, world.state(kBody).v_WB.x()};
 }
 
-/// The same from the block's equation of motion, in steps of 10 us. In the world the speed at the
-/// start is the speed half a step later.
+/// Computes the same from the block's equation of motion, in steps of 10 us. In the world, the
+/// initial speed is the speed half a step after the start.
 Slid slides(const scene::PairSurface& surface, double mass, double speed, double force,
             double duration) {
     constexpr double kFine = 1e-5;

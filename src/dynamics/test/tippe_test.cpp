@@ -1,5 +1,5 @@
-// A tippe top: a ball with its centre of mass below its middle, which turns over if it spins
-// fast enough.
+// Tests a tippe top, i.e. a ball whose centre of mass is below its middle, which turns over if it
+// spins fast enough.
 #include <gtest/gtest.h>
 
 #include "dynamics/test/blocks.h"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kRadius = 0.015;  // [m]
 
-/// A ball with a smaller one inside it, so that the smaller volume has twice the density.
+/// A ball with a smaller ball inside it, which doubles the density of the smaller volume.
 scene::Body top() {
     scene::Body out;
     out.name = "top";
@@ -23,9 +23,9 @@ scene::Body top() {
     return out;
 }
 
-/// The top's quantities, per mass.
+/// Quantities of the top, per unit mass.
 struct Has {
-    double up;       ///< cosine of its tilt
+    double up;       ///< cosine of the tilt
     double jellett;  ///< - L . c / r, with c from the centre of mass to the contact point [m^2/s]
     double energy;   ///< [J/kg]
 };
@@ -50,9 +50,9 @@ World spinning(double rate, contact::Solver solver) {
     return world;
 }
 
-/// For any friction at the contact point of a ball, - L . c is constant (Jellett 1872): the top
-/// turns upside down with C w (1 - a) = C w' (1 + a), where a is the offset of its centre of mass
-/// in radii.
+/// Whatever the friction at the contact point of a ball, - L . c is constant (Jellett 1872): the
+/// top turns upside down with C w (1 - a) = C w' (1 + a), where a is the offset of its centre of
+/// mass in radii.
 TEST(TippeTop, TurnsOverAndKeepsJellettsInvariant) {
     for (const contact::Solver solver :
          {contact::Solver::newton, contact::Solver::staggered_projections,

@@ -22,7 +22,7 @@ TEST(World, FallsFreelyByTheClosedFormOfItsIntegrator) {
 }
 
 TEST(World, AForceOffTheCentreTurnsABlock) {
-    // across the middle of a face's edge: w = h r x f / I, with I = m a^2 / 6 for a cube
+    // at the midpoint of a face's edge: w = h r x f / I, with I = m a^2 / 6 for a cube
     World world = make({block({0.3, 0.2, 1})});
     const Vec3 r(0.02, 0, 0.02);
     const Vec3 f(0, 0.5, 0);
@@ -62,7 +62,7 @@ TEST(World, FallsOntoTheTableWithoutPassingOrBouncing) {
 }
 
 TEST(World, StepChangesMomentumByLoadsAndContactForces) {
-    // the forces that the contacts report are those that acted
+    // the forces reported for the contacts must be those that acted
     World world = make({table(0.3), block({0, 0, 0.02}, 0.3)}, awake());
     for (int i = 0; i < 200; ++i) {
         const Vec3 before = 0.1 * world.states()[1].v_WB;
@@ -122,7 +122,7 @@ TEST(World, BodiesMoveOnlyAlongTheirFreeAxes) {
 
 TEST(World, ABodyOnAHingeTurnsByItsInertiaAboutIt) {
     scene::Body bar = box("bar", {0.1, 0.02, 0.03}, {0, 0, 0.2}, 0.2);
-    bar.rotation = {0.4, 0.3, 0.2};  // not along the world's axes
+    bar.rotation = {0.4, 0.3, 0.2};  // not aligned with the world's axes
     bar.moves = scene::Axes::none;
     bar.turns = scene::Axes::z;
     World world = make({bar});
@@ -143,7 +143,7 @@ TEST(World, ATumblingBodyKeepsItsEnergyAndAngularMomentum) {
     const Vec3 inertia =
         (0.2 / (0.1 * 0.05 * 0.02) * scene::integrate(scene.bodies[0].shape).inertia).diagonal();
     world.apply({0}, Vec3::Zero(),
-                Vec3(inertia.cwiseProduct(Vec3(2, 5, 3)) / kStep));  // spins about all three
+                Vec3(inertia.cwiseProduct(Vec3(2, 5, 3)) / kStep));  // spins about all axes
     world.step(kStep);
     const auto momentum = [&] {
         const BodyState& s = world.states()[0];
@@ -200,7 +200,7 @@ TEST(World, RoundShapesRestOnAPlaneWhereTheyShould) {
     EXPECT_NEAR(world.states()[3].X_WB.p.z(), 0.02, 1e-4);
 }
 
-/// Steps for `time`; returns the lowest height of any of a body's `points` in that time.
+/// Steps for `time` and returns the smallest height that any of a body's `points` reaches.
 double lowest_of(World& world, int body, const std::vector<Vec3>& points, double time) {
     double lowest = 1;
     for (double t = kStep / 2; t < time; t += kStep) {
@@ -285,7 +285,7 @@ TEST(World, AFixedBodyThatIsPutElsewhereNoLongerCarriesAndLaterDoes) {
                     1e-9);
     }
     EXPECT_EQ(noted(), 0);
-    // moved into the path of the fall, the shelf carries the block again
+    // after being moved into the path of the falling block, the shelf carries the block again
     world.set_pose({1}, {Quat::Identity(), {0, 0, 0.13}});
     run(world, 0.5);
     EXPECT_NEAR(world.states()[2].X_WB.p.z(), 0.16, 1e-5);
@@ -300,7 +300,7 @@ TEST(Sleep, ALoadWakesABodyAndAllThatItTouches) {
     world.step(kStep);
     EXPECT_TRUE(world.states()[1].awake);
     EXPECT_TRUE(world.states()[2].awake);
-    EXPECT_LT(std::abs(world.states()[2].v_WB.z()), 1e-6);  // the block is still carried
+    EXPECT_LT(std::abs(world.states()[2].v_WB.z()), 1e-6);  // still carried
 }
 
 TEST(Sleep, WhatFallsOnASleeperWakesItInTheSameStep) {
@@ -311,7 +311,7 @@ TEST(Sleep, WhatFallsOnASleeperWakesItInTheSameStep) {
         const double falling = world.states()[2].v_WB.z();
         slept = slept || !world.states()[1].awake;
         world.step(kStep);
-        if (world.states()[2].v_WB.z() > falling + 1) break;  // it has landed
+        if (world.states()[2].v_WB.z() > falling + 1) break;  // the box has landed
     }
     EXPECT_TRUE(slept);
     EXPECT_TRUE(world.states()[1].awake);
@@ -319,8 +319,8 @@ TEST(Sleep, WhatFallsOnASleeperWakesItInTheSameStep) {
 }
 
 TEST(Sleep, NeverFreezesAnythingThatSlides) {
-    // friction just below the value that would stop the block: it creeps down at a few mm/s for
-    // seconds
+    // friction is just below the value that would stop the block, which creeps down at a few mm/s
+    // for seconds
     const double slope = 26.6 * kDegree;  // tan = 0.5008
     const Quat R = rotation_xyz({0, slope, 0});
     scene::Body plane = box("slope", {5, 1, 0.1}, R * Vec3(0, 0, -0.05), 0, 0.5);
@@ -365,7 +365,7 @@ TEST(World, ProxiesFeelNoGravityAndDoNotTurn) {
     EXPECT_EQ(world.state(proxy).w_WB, Vec3::Zero());
 }
 
-/// Blocks thrown together: many contacts come and go.
+/// A world with blocks thrown together, in which many contacts come and go.
 World heap() {
     std::vector<scene::Body> bodies{table()};
     for (int i = 0; i < 20; ++i) {
@@ -420,7 +420,7 @@ TEST(World, StepsWithoutAllocatingWithRoundShapesToo) {
 TEST(World, TheAllocationGuardSeesWhatAStepWouldAllocate) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     frame::DynamicsSettings settings;
-    settings.max_contacts = 4;  // far too few: the step must allocate, and reports it
+    settings.max_contacts = 4;  // far too few: the step must allocate memory and report it
     std::vector<scene::Body> bodies{table()};
     for (int i = 0; i < 80; ++i) {
         bodies.push_back(block({0.05 * (i % 10) - 0.25, 0.05 * (i / 10) - 0.2, 0.02}));

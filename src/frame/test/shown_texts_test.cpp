@@ -1,4 +1,4 @@
-// Tests texts with numbers in them, and the display of objects in a Frame.
+// Tests texts that contain numbers, and how objects in a Frame are displayed.
 #include "frame/shown_texts.h"
 
 #include <gtest/gtest.h>

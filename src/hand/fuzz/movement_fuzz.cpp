@@ -1,4 +1,4 @@
-// Reads any file as a recorded movement, and repairs it if it can be read without errors.
+// Reads any file as a recorded movement and, if there are no errors, repairs it.
 #include "hand/movement.h"
 
 #include "hand/repair.h"
@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
             const hand::Movement movement = hand::read_movement(file, axes, diagnostics);
             if (!diagnostics.has_errors()) (void)hand::repair(movement);
         } catch (const Error&) {
-            // reported with file, line and remedy, as intended
+            // errors are reported with file, line and remedy, as intended
         }
     }
     return 0;

@@ -25,8 +25,8 @@ TEST(MouseDriver, RestsWhereTheSpecSaysUntilItIsMoved) {
     }
 }
 
-/// Checks the closed form: after one time constant a fraction (1 + 1) / e of the path is left, and
-/// there is no overshoot.
+/// Checks the closed form: after one time constant, the fraction (1 + 1) / e of the path is left,
+/// and there is no overshoot.
 TEST(MouseDriver, FollowsCriticallyDamped) {
     MouseDriver driver(spec(), kPair);
     Posture goal = driver.goal();
@@ -57,7 +57,7 @@ TEST(MouseDriver, ItsSpeedIsTheSlopeOfItsPlaceThroughChangesOfMind) {
         goal.roll -= 0.2 * (i % 4);
         const FingerTarget old = driver.target(1, t);
         driver.follow(goal, t);
-        // neither position nor speed jumps
+        // neither the position nor the velocity jumps
         EXPECT_LT((driver.target(1, t).p_WT - old.p_WT).norm(), 1e-12);
         EXPECT_LT((driver.target(1, t).v_WT - old.v_WT).norm(), 1e-10);
         for (int k = 0; k < 10; ++k, t += 0.003) {

@@ -34,7 +34,7 @@ TEST(Movement, TurnsAxesThatHaveYUp) {
     EXPECT_LT((m.frames[0].p_WH[0] - Vec3(p.x(), -p.z(), p.y())).norm(), 1e-6);
 }
 
-// a way of damaging a line in a file, and the resulting report
+// a way of damaging a line of a file, and what the report must say
 struct Damage {
     const char* what;
     std::vector<std::string> (*apply)(std::vector<std::string> lines);
@@ -217,7 +217,7 @@ const std::vector<Damage> kDamages{
 };
 INSTANTIATE_TEST_SUITE_P(Movement, DamagedMovement, ::testing::ValuesIn(kDamages));
 
-/// Files that are not movement tables: a single message reports this.
+/// Files that are not movement tables: a single message must say so.
 class NoMovement : public ::testing::TestWithParam<std::pair<std::string, std::string>> {};
 TEST_P(NoMovement, IsRefusedInOneMessage) {
     const auto& [text, says] = GetParam();

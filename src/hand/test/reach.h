@@ -1,4 +1,4 @@
-// A recorded reach without faults, as a file for tests to damage.
+// A recorded reach without faults, provided as a file that tests can damage.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,7 +13,8 @@ namespace dihaptic::hand {
 
 constexpr double kFrame = 1.0 / 85;
 
-/// Thumb and index move 30 cm out, open to 80 mm, close to 40 mm, wait, and return.
+/// Thumb and index finger move 30 cm out while they open to 80 mm and close to 40 mm, then wait,
+/// and return.
 struct Reach {
     static Vec3 at(int finger, double t) {
         const double there =
@@ -26,7 +27,7 @@ struct Reach {
     }
 };
 
-/// The reach as CSV, one line per frame, the header first.
+/// The reach in CSV format: a header, then one line per frame.
 inline std::vector<std::string> reach_lines() {
     std::vector<std::string> lines{
         "time_ms,thumb_x_mm,thumb_y_mm,thumb_z_mm,index_x_mm,index_y_mm,index_z_mm,occluded"};

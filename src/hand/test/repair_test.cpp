@@ -1,4 +1,4 @@
-// Tests of repairing and following recorded movements, and of finding their grasp.
+// Tests how recorded movements are repaired and followed, and how their grasp is found.
 #include "hand/repair.h"
 #include "base/number.h"
 
@@ -17,7 +17,7 @@ Path repaired(const std::vector<std::string>& lines) {
     return repair(read(join(lines)).movement);
 }
 
-/// Largest distance of the repaired path from the reach without faults [m].
+/// Largest distance between the repaired path and the reach without faults [m].
 double error_of(const Path& path) {
     double worst = 0;
     for (size_t f = 0; f < 2; ++f) {
@@ -136,7 +136,7 @@ TEST(Repair, DropsWildFramesAtTheEndsAndKeepsTheirNeighbours) {
                              fmt::format("{:.6f}", finite_number(cell(line, c)).value() / 1000));
             }
             const Path path = repaired(lines);
-            ASSERT_EQ(path.faults.size(), 2u);  // thumb and index
+            ASSERT_EQ(path.faults.size(), 2u);  // thumb and index finger
             for (const Fault& fault : path.faults) {
                 EXPECT_EQ(fault.kind, FaultKind::wild_position);
                 EXPECT_TRUE(fault.wrong_unit);
@@ -164,7 +164,7 @@ TEST(Repair, SuspectsALineInMetres) {
         set_cell(lines[60], c,
                  fmt::format("{:.6f}", finite_number(cell(lines[60], c)).value() / 1000));
     const Path path = repaired(lines);
-    ASSERT_EQ(path.faults.size(), 2u);  // thumb and index
+    ASSERT_EQ(path.faults.size(), 2u);  // thumb and index finger
     for (const Fault& fault : path.faults) {
         EXPECT_TRUE(fault.wrong_unit);
         EXPECT_EQ(fault.line, 61);
@@ -218,7 +218,7 @@ TEST(RecordedDriver, FollowsThePathWithItsShiftAndNamesPhases) {
     const Path path = repaired(reach_lines());
     const auto site = find_grasp(path);
     const RecordedDriver driver(path, *site, {1, 0, 0},
-                                {"index", "thumb"});  // in the scene's order
+                                {"index", "thumb"});  // in the order of the scene
     EXPECT_LT((driver.target(0, 1.5).p_WT - Reach::at(1, 1.5) - Vec3(1, 0, 0)).norm(), 1e-3);
     EXPECT_EQ(driver.target(0, 99).v_WT, Vec3::Zero());
     EXPECT_EQ(driver.phases()[1].name, "grasp");

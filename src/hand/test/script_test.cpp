@@ -27,7 +27,7 @@ TEST(Script, MovesApertureAndCentreByMinimumJerk) {
     EXPECT_LT((driver.target(0, 3).p_WT - Vec3(-0.01, 0, 0.12)).norm(), 1e-15);
     EXPECT_NEAR(driver.target(0, 2).v_WT.z(), 0.05 * model::kMinimumJerkPeak, 1e-15);
     EXPECT_NEAR(driver.target(0, 3.5).v_WT.x(), 0.2, 1e-15);  // steady
-    EXPECT_EQ(driver.target(0, 9).v_WT, Vec3::Zero());        // stays where it ended
+    EXPECT_EQ(driver.target(0, 9).v_WT, Vec3::Zero());        // stays where the script ended
 }
 
 TEST(Script, VelocityIsTheDerivativeOfPosition) {
@@ -39,8 +39,8 @@ TEST(Script, VelocityIsTheDerivativeOfPosition) {
     }
 }
 
-/// A throw: the hand rises, reaching 1.2 m/s, and rises further while it opens and turns; then the
-/// index does the same alone.
+/// A throw: the hand rises to a speed of 1.2 m/s, and rises further while it opens and turns; then
+/// the index finger does the same alone.
 HandSpec throwing() {
     HandSpec hand = spec();
     ScriptStep up;
@@ -82,7 +82,7 @@ TEST(Script, TurnsTheHandAboutItsCentre) {
     const Vec3 arm(0.1 * std::cos(0.5), 0.1 * std::sin(0.5), 0);
     EXPECT_LT((driver.target(1, 0.6).p_WT - Vec3(0.01, 0, 0.32) - arm).norm(), 1e-15);
     EXPECT_LT((driver.target(0, 0.6).p_WT - Vec3(0.01, 0, 0.32) + arm).norm(), 1e-15);
-    // turns add up
+    // the two turns add up
     const Vec3 twice(0.1 * std::cos(1), 0.1 * std::sin(1), 0);
     EXPECT_LT((driver.target(1, 0.8).p_WT - Vec3(0.01, 0, 0.42) - twice).norm(), 1e-15);
 }

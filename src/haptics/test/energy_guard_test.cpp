@@ -13,7 +13,7 @@ namespace {
 constexpr double kTick = 1e-3;
 constexpr double kStiffness = 1000;  // [N/m]
 
-/// Does one tick along x; returns the guard's added force [N].
+/// Does one tick along x, and returns the force that the guard adds [N].
 double watch(EnergyGuard& guard, double p_H, double v_H, double p_P, double force,
              unsigned& flags) {
     const double stored = kStiffness / 2 * (p_P - p_H) * (p_P - p_H);
@@ -23,7 +23,7 @@ double watch(EnergyGuard& guard, double p_H, double v_H, double p_P, double forc
         .force.x();
 }
 
-/// Moves a handle and a proxy along x, with the coupling's force on the handle.
+/// Moves a handle and a proxy along x, with the force of the coupling on the handle.
 struct Motion {
     EnergyGuard guard{frame::EnergyGuardMode::warn};
     unsigned flags = 0;
@@ -31,8 +31,8 @@ struct Motion {
     void tick(double p_H, double v_H, double p_P, double force) {
         watch(guard, p_H, v_H, p_P, force, flags);
     }
-    /// Moves the handle by `depth` into a wall at x = 0 and out again, in a sine of 20 Hz, for
-    /// `cycles`, with damping c. Returns the sum of the squares of its steps inside.
+    /// Moves the handle by `depth` into a wall at x = 0 and out again, in a 20 Hz sine, for
+    /// `cycles`, with damping c. Returns the sum of the squared steps inside the wall.
     double press(double c, double depth, int cycles) {
         const double w = 2 * std::numbers::pi * 20;
         double squares = 0;
@@ -49,7 +49,7 @@ struct Motion {
 };
 
 TEST(EnergyGuard, SeesWhatTheHoldOfASampleGenerates) {
-    // kStiffness / 2 times the square of each step (README.md), as no damper absorbs it
+    // kStiffness / 2 times the square of each step (README.md), since no damper absorbs it
     Motion run;
     const double squares = run.press(0, 0.004, 1);
     EXPECT_NEAR(run.guard.generated(), kStiffness / 2 * squares, 0.06 * kStiffness / 2 * squares);
@@ -67,7 +67,7 @@ TEST(EnergyGuard, SeesThatTheDefaultDampingTakesIt) {
 TEST(EnergyGuard, LetsAHandRestHoldAndCarry) {
     Motion run;
     for (int i = 0; i < 1000; ++i) run.tick(0.002, 0, 0, -2);  // at rest
-    for (int i = 0; i < 1000; ++i) {                           // 10 cm up and down, under 2 N
+    for (int i = 0; i < 1000; ++i) {                           // 10 cm up and down with 2 N
         const double x = 0.1 * std::sin(2 * std::numbers::pi * i * kTick);
         run.tick(x + 0.002, 0, x, -2);
     }
@@ -75,7 +75,7 @@ TEST(EnergyGuard, LetsAHandRestHoldAndCarry) {
 }
 
 TEST(EnergyGuard, LetsBodiesGiveWhatTheyHave) {
-    // a heavy body carries the hand along at 1 m/s against a force of 4 N: 4 J, all from the body
+    // a heavy body carries the hand along at 1 m/s against 4 N: 4 J, all supplied by the body
     Motion run;
     for (int i = 0; i < 1000; ++i) run.tick(i * kTick, 1, i * kTick + 0.004, 4);
     EXPECT_LT(run.guard.generated(), 1e-12);
@@ -91,7 +91,7 @@ TEST(EnergyGuard, LetsABodyBounceOffAHandAtRest) {
 }
 
 TEST(EnergyGuard, LetsCoulombFrictionHoldASpringThatWasStretched) {
-    // the proxy sticks while the handle strains by 2 mm, then slides along behind it, and back
+    // the proxy sticks while the handle moves 2 mm away, then slides along behind it, and back
     Motion run;
     double p_P = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -105,8 +105,8 @@ TEST(EnergyGuard, LetsCoulombFrictionHoldASpringThatWasStretched) {
 }
 
 TEST(EnergyGuard, LetsAHandStrainAtWhatItDrivesAlong) {
-    // the proxy slides at 1 m/s, the hand follows at 2 m/s: friction absorbs the harder push a tick
-    // before the hand feels it, 20 mJ in 20 ticks, and keeps that energy
+    // the proxy slides at 1 m/s, the hand follows at 2 m/s: friction absorbs the stronger push a
+    // tick before the hand feels it (20 mJ in 20 ticks) and keeps that energy
     const auto strain = [](Motion& run, double c) {
         for (int i = 0; i <= 20; ++i) {
             const double stretch = -1.0 * kTick * i;
@@ -121,7 +121,7 @@ TEST(EnergyGuard, LetsAHandStrainAtWhatItDrivesAlong) {
 }
 
 TEST(EnergyGuard, LetsASpringThatCameFreeCatchAgainWithWhatItKept) {
-    // a wedged proxy slips out from a stretch of 150 mm and is caught again before its spring is
+    // a wedged proxy with a stretch of 150 mm slips out, and is caught again before its spring is
     // relaxed; the hand is still pushed in that tick
     Motion run;
     for (int i = 0; i < 10; ++i) run.tick(0, 0, 0.15, 170);
@@ -130,8 +130,8 @@ TEST(EnergyGuard, LetsASpringThatCameFreeCatchAgainWithWhatItKept) {
     for (int i = 0; i < 3; ++i) run.tick(0.001, 0, 0.04, 39);
     EXPECT_LT(run.guard.generated(), 1e-12);
     EXPECT_EQ(run.flags, 0u);
-    // the spring must not return energy that it did not store: it relaxes, and is stretched again
-    // without any work
+    // the spring must not return energy that it did not store: it relaxes, and is then stretched
+    // again without any work
     run.tick(0.001, 0, 0.001, 0);
     run.tick(0.021, 0, 0.001, 0);
     for (int i = 0; i < 3; ++i) run.tick(0.021, 0, 0.001, -20);
@@ -148,8 +148,8 @@ TEST(EnergyGuard, LetsABodyHitARestingProxy) {
 }
 
 TEST(EnergyGuard, IsNotLulledByWhatWasDissipatedBefore) {
-    // 5 N*s/m absorb energy for a second; then the same negative damping releases it. With v the
-    // mean square of the speed while in touch, which is half of the time, the energy is c v / 2 per
+    // 5 N*s/m absorb energy for a second, then the same negative damping releases it. With v the
+    // mean square speed while in contact, which is half of the time, the energy is c v / 2 per
     // second.
     Motion run;
     const double depth = 0.002;
@@ -161,13 +161,13 @@ TEST(EnergyGuard, IsNotLulledByWhatWasDissipatedBefore) {
     run.press(-5, depth, cycles);
     EXPECT_NE(run.flags & kEnergyGenerated, 0u) << cycles;
     EXPECT_LT(cycles, 10);
-    EXPECT_EQ(run.flags & kEnergyDamped, 0u);  // because the mode is 'warn'
+    EXPECT_EQ(run.flags & kEnergyDamped, 0u);  // since the mode is 'warn'
 }
 
 TEST(EnergyGuard, ActsAgainstTheMotionAndNoMoreThanItNeeds) {
     EnergyGuard guard(frame::EnergyGuardMode::act);
     unsigned flags = 0;
-    // a push of 5 N out of nowhere while proxy and wall stand still
+    // an unexplained push of 5 N while the proxy and the wall stand still
     watch(guard, 0, 0.5, 0.005, 5, flags);
     double damper = 0;
     double x = 0;
@@ -178,7 +178,7 @@ TEST(EnergyGuard, ActsAgainstTheMotionAndNoMoreThanItNeeds) {
     EXPECT_EQ(flags, 0u) << "a body pushed";
     for (int i = 0; i < 40 && flags == 0; ++i) {
         x += 0.5 * kTick;
-        // the force stays the same although the spring relaxes
+        // the force stays the same even though the spring relaxes
         damper = watch(guard, x, 0.5, 0.025, 5, flags);
     }
     EXPECT_EQ(flags, unsigned{kEnergyGenerated} | kEnergyDamped);

@@ -21,7 +21,7 @@ frame::DeviceInfo device(double continuous_force) {
 }
 
 TEST(Heating, FallsFromThePeakToTheContinuousForceAsTheClosedFormSays) {
-    // at the largest allowed force, f^2 - f_c^2 decays with tau f_c^2 / f_p^2
+    // at the largest allowed force, f^2 - f_c^2 decays with the time constant tau f_c^2 / f_p^2
     const double peak = 8.5, continuous = 1.4, tau = 10;
     Heating heating(peak, continuous, tau);
     double last = peak;
@@ -32,7 +32,7 @@ TEST(Heating, FallsFromThePeakToTheContinuousForceAsTheClosedFormSays) {
                               std::exp(-t * peak * peak / (continuous * continuous * tau));
         ASSERT_NEAR(force, std::sqrt(continuous * continuous + excess), 2e-3 * force) << t;
         ASSERT_LE(force, last);
-        ASSERT_LE(last - force, 0.02);  // smoothly: 20 N/s at most
+        ASSERT_LE(last - force, 0.02);  // smooth: at most 20 N/s
         last = force;
         heating.add({force, 0, 0}, kTick);
         ASSERT_LE(heating.mean_square(), continuous * continuous * (1 + 1e-12));
@@ -73,10 +73,10 @@ TEST(WorkspaceWall, PushesInwardInProportionToTheDepth) {
     const WorkspaceWall wall({{{}, Vec3(0.2, 0.1, 0.1)}}, 500, kTick);
     EXPECT_EQ(wall.force({0.1, -0.05, 0.05}, {1, 1, 1}), Vec3::Zero());
     EXPECT_LT((wall.force({0.102, -0.051, 0}, Vec3::Zero()) - Vec3(-1, 0.5, 0)).norm(), 1e-12);
-    // damping k h / 2
+    // damping c = k h / 2
     EXPECT_NEAR(wall.force({0.102, 0, 0}, {0.4, 0, 0}).x(), -1.1, 1e-12);
     EXPECT_NEAR(wall.force({-0.102, 0, 0}, {-0.4, 0, 0}).x(), 1.1, 1e-12);
-    // never outward, however fast the handle returns
+    // the force is never outward, however fast the handle returns
     EXPECT_EQ(wall.force({0.102, 0, 0}, {-50, 0, 0}).x(), 0);
 }
 
@@ -112,7 +112,7 @@ TEST(SoftStart, CanBeNone) {
 
 TEST(ForceGuard, DropsAtOnceWithoutTheSwitchAndRisesAgainFromZero) {
     frame::SafetySettings settings;
-    settings.max_force_rate = 100;  // 0.1 N a tick
+    settings.max_force_rate = 100;  // 0.1 N per tick
     ForceGuard guard(settings, device(kInfinite), {}, kTick);
     unsigned flags = 0;
     for (int i = 0; i < 50; ++i) guard.limit({Vec3(2, 0, 0)}, true, 1, flags);

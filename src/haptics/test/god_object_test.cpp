@@ -1,5 +1,5 @@
-// Tests the point proxy's position against geometry: presses on every shape, corners, wedges,
-// moving bodies, and Coulomb's law.
+// Tests the position of the point proxy against geometry and Coulomb's law, with presses on every
+// shape, corners, wedges and moving bodies.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -13,7 +13,7 @@
 namespace dihaptic::haptics::god_object_test {
 namespace {
 
-/// Bodies, fixed or moved by the test, and one point among them.
+/// Bodies that are fixed or moved by the test, and one point among them.
 struct Room {
     std::vector<scene::Body> bodies;
     std::vector<dynamics::BodyState> states;
@@ -26,7 +26,7 @@ struct Room {
         states.emplace_back();
         states.back().X_WB = X_WB;
     }
-    double skin = 0;  // so that closed forms are exact
+    double skin = 0;  // makes closed forms exact
 
     void start(const Vec3& p, double friction = 0, double sliding = 1) {
         point = std::make_unique<GodObject>(bodies, std::vector<double>(bodies.size(), friction),
@@ -37,12 +37,12 @@ struct Room {
         point->follow(p_WH, states);
         return point->position();
     }
-    /// Goes straight to the target, in steps of 0.1 mm.
+    /// Moves the handle straight to the target, in steps of 0.1 mm.
     void go(const Vec3& from, const Vec3& to) {
         const int steps = std::max(1, static_cast<int>((to - from).norm() / 1e-4));
         for (int i = 1; i <= steps; ++i) follow(from + (to - from) * i / steps);
     }
-    /// Depth of the point inside any body [m].
+    /// Depth of the point in any body [m].
     double depth() const {
         double deepest = 0;
         for (size_t i = 0; i < bodies.size(); ++i) {
@@ -55,10 +55,10 @@ struct Room {
 
 class EveryShape : public ::testing::TestWithParam<int> {};
 
-/// Moves the handle along ten thousand straight paths through a shape, from outside, in strides of
-/// up to 8 mm. The point stays outside; the force that holds it back points out of the shape; and
-/// while the handle's foot on the face of entry is within that face, the point is there, however
-/// thin the shape.
+/// Moves the handle along ten thousand straight paths from the outside through a shape, in strides
+/// of up to 8 mm. The point must stay outside, and the force that holds it back must point out of
+/// the shape. While the projection of the handle onto the face of entry is within that face, the
+/// point must be there, however thin the shape.
 TEST_P(EveryShape, PressesAreFeltOutOfTheFaceThatWasEntered) {
     Random random(4, "presses");
     Room room;
@@ -91,8 +91,8 @@ TEST_P(EveryShape, PressesAreFeltOutOfTheFaceThatWasEntered) {
             const Vec3 foot =
                 next - surface.distance(entered, next) * surface.normal(entered, next);
             const bool flat = surface.bent_part(entered, foot, Vec3::UnitX()).isZero(0);
-            // if the handle is near its centre, a round shape lets the point around to the other
-            // side within a few ticks
+            // if the handle is near its centre, a round shape lets the point slip round to the
+            // other side within a few ticks
             const bool shallow =
                 flat || surface.distance(entered, next) > -0.6 * surface.bend_radius(foot);
             if (shallow && force.norm() > 1e-6) {
@@ -129,15 +129,15 @@ TEST(GodObject, FollowsTheHandleExactlyInFreeSpace) {
 }
 
 TEST(GodObject, NearABoxsCornerTheEnteredFaceIsKept) {
-    // the handle is 1 mm from the edge; at 5 mm depth the side is nearer, but the point entered
-    // through the top
+    // the handle is 1 mm from the edge; at a depth of 5 mm the side is nearer, but the point
+    // entered through the top
     Room room;
     room.add(scene::Shape::box({0.04, 0.04, 0.04}));
     room.start({0.019, 0, 0.025});
     room.go({0.019, 0, 0.025}, {0.019, 0, 0.010});
     EXPECT_LT((room.point->position() - Vec3(0.019, 0, 0.02)).norm(), 1e-9);
     EXPECT_LT((room.point->contacts()[0].n_W - Vec3::UnitZ()).norm(), 1e-12);
-    // beyond the edge the point is free, and on re-entry the side is felt
+    // beyond the edge the point is free, and on re-entry it touches the side
     room.go({0.019, 0, 0.010}, {0.022, 0, 0.010});
     EXPECT_TRUE(room.point->contacts().empty());
     room.go({0.022, 0, 0.010}, {0.012, 0, 0.010});
@@ -148,15 +148,15 @@ TEST(GodObject, NearABoxsCornerTheEnteredFaceIsKept) {
 TEST(GodObject, PushingThroughAThinWedgeIsFeltOutThroughTheFaceItCameBy) {
     Room room;
     room.add(thin_wedge());
-    const Vec3 n = Vec3(0.001, 0, 0.03).normalized();  // of the upper face
+    const Vec3 n = Vec3(0.001, 0, 0.03).normalized();  // normal of the upper face
     const Vec3 above(0.015, 0.003, 0.01);
     room.start(above);
     room.go(above, {0.015, 0.003, -0.008});
     const Vec3 force = room.point->position() - Vec3(0.015, 0.003, -0.008);
     EXPECT_LT((force.normalized() - n).norm(), 1e-6);
-    EXPECT_GT(force.norm(), 0.008);  // deeper than the wedge is thick
+    EXPECT_GT(force.norm(), 0.008);  // farther than the wedge is thick
     EXPECT_LT(room.depth(), kOnSurface);
-    // a stroke through the wedge in a single tick
+    // a stroke right through the wedge in a single tick
     room.start(above);
     room.follow({0.015, 0.003, -0.02});
     EXPECT_LT((room.point->position() - Vec3(0.015, 0.003, -0.02)).normalized().cross(n).norm(),
@@ -177,7 +177,7 @@ TEST(GodObject, ThreeWallsOfARoomsCornerHoldItInTheCorner) {
     Vec3 sum = Vec3::Zero();
     for (const PointContact& c : room.point->contacts()) sum += c.depth * c.n_W;
     EXPECT_LT((sum - Vec3(0.004, 0.003, 0.002)).norm(), 1e-9);
-    // out along one wall: two constraints, then one
+    // moving out along one wall leaves two constraints, then one
     room.go({-0.004, -0.003, -0.002}, {0.01, -0.003, -0.002});
     EXPECT_LT((room.point->position() - Vec3(0.01, 0, 0)).norm(), 1e-9);
     EXPECT_EQ(room.point->contacts().size(), 2u);
@@ -187,7 +187,7 @@ TEST(GodObject, ThreeWallsOfARoomsCornerHoldItInTheCorner) {
 }
 
 TEST(GodObject, ANotchBetweenTiltedWallsIsExact) {
-    // two half-spaces that meet at 60 degrees along y: the forces are those of the wedge
+    // two half-spaces that meet at an angle of 60 degrees along y: the forces are those of a wedge
     Room room;
     const double third = std::numbers::pi / 3;
     room.add(round(scene::ShapeKind::plane, 0, 0), {rotation_xyz({0, third, 0}), Vec3::Zero()});
@@ -202,7 +202,7 @@ TEST(GodObject, ANotchBetweenTiltedWallsIsExact) {
 }
 
 TEST(GodObject, AMovingBodyPushesIt) {
-    // a box comes from the left at 0.5 m/s while the handle stands still
+    // a box moves in from the left at 0.5 m/s while the handle stands still
     Room room;
     room.add(scene::Shape::box({0.02, 0.04, 0.04}), {Quat::Identity(), {-0.03, 0, 0}});
     room.start({0, 0.005, 0});
@@ -217,7 +217,7 @@ TEST(GodObject, AMovingBodyPushesIt) {
 }
 
 TEST(GodObject, AFastThinBodyDoesNotPassThroughIt) {
-    // a plate of 1 mm that moves 20 mm in a tick
+    // a plate 1 mm thick moves by 20 mm in a tick
     Room room;
     room.add(scene::Shape::box({0.001, 0.04, 0.04}), {Quat::Identity(), {-0.01, 0, 0}});
     room.start({0, 0.005, 0});
@@ -228,7 +228,7 @@ TEST(GodObject, AFastThinBodyDoesNotPassThroughIt) {
 }
 
 TEST(GodObject, ATurningBodyCarriesItAtFullFriction) {
-    // stuck to a turntable, the point turns with it to the bit, while the handle turns with both
+    // the point sticks to a turntable and turns exactly with it, while the handle turns with both
     Room room;
     room.add(round(scene::ShapeKind::cylinder, 0.05, 0.02), {Quat::Identity(), {0, 0, -0.01}});
     room.start({0.03, 0, 0.001}, 2.0);
@@ -236,7 +236,7 @@ TEST(GodObject, ATurningBodyCarriesItAtFullFriction) {
     for (int i = 1; i <= 2000; ++i) {
         const Quat R = rotation_xyz({0, 0, i * 1e-3});
         room.states[0].X_WB.R = R;
-        // the handle lags by 4 mm: within the cone, of 2 x 3 mm
+        // the handle lags by 4 mm, which is within the cone of 2 x 3 mm
         room.follow(R * Vec3(0.03, -0.004, -0.003));
     }
     const Quat R = rotation_xyz({0, 0, 2.0});
@@ -245,7 +245,7 @@ TEST(GodObject, ATurningBodyCarriesItAtFullFriction) {
 }
 
 TEST(GodObject, TwoBodiesThatMoveTogetherCarryIt) {
-    // the point is in the corner of a box and a plate that fly off together while turning
+    // the point is in the corner between a box and a plate that fly off together while turning
     Room room;
     room.skin = kSkin;
     room.add(scene::Shape::box({0.1, 0.1, 0.02}), {Quat::Identity(), {0, 0, -0.01}});
@@ -265,7 +265,7 @@ TEST(GodObject, TwoBodiesThatMoveTogetherCarryIt) {
 }
 
 TEST(GodObject, DoesNotSlipUnderABlockThatStandsOnATable) {
-    // 1 um off the table, as solvers leave it
+    // 1 um above the table, as solvers leave it
     Room room;
     room.skin = kSkin;
     room.add(round(scene::ShapeKind::plane, 0, 0));
@@ -278,7 +278,7 @@ TEST(GodObject, DoesNotSlipUnderABlockThatStandsOnATable) {
 }
 
 TEST(GodObject, SticksUnderStaticFrictionAndSlidesAtDynamicFriction) {
-    // 2 mm deep; static friction 0.8 holds 1.6 mm, dynamic friction 0.5 of it holds 0.8 mm
+    // 2 mm deep: static friction of 0.8 holds 1.6 mm, dynamic friction of half as much holds 0.8 mm
     Room room;
     room.add(round(scene::ShapeKind::plane, 0, 0));
     room.start({0, 0, 0.001}, 0.8, 0.5);
@@ -291,13 +291,13 @@ TEST(GodObject, SticksUnderStaticFrictionAndSlidesAtDynamicFriction) {
     room.follow({0.00161, 0, -0.002});
     EXPECT_TRUE(room.point->sliding());
     EXPECT_NEAR(room.point->position().x(), 0.00161 - 0.0008, 1e-9);
-    // the point slides on behind the handle, and rests when the handle stops
+    // the point keeps sliding behind the handle, and rests when the handle stops
     room.go({0.00161, 0, -0.002}, {0.01, 0, -0.002});
     EXPECT_NEAR(room.point->position().x(), 0.01 - 0.0008, 1e-9);
     EXPECT_NEAR(room.point->held().norm(), 0.0008, 1e-9);
     room.follow({0.01, 0, -0.002});
     EXPECT_FALSE(room.point->sliding());
-    // then it sticks again, up to the static cone
+    // the point then sticks again, up to the limit of static friction
     room.follow({0.01075, 0, -0.002});
     EXPECT_NEAR(room.point->position().x(), 0.0092, 1e-9);
     room.follow({0.01085, 0, -0.002});
@@ -319,7 +319,7 @@ TEST(GodObject, OnASphereItIsNearestToTheHandle) {
     room.add(scene::Shape::sphere(0.015));
     room.start({0, 0, 0.02});
     room.go({0, 0, 0.02}, {0, 0, 0.010});
-    // around the sphere, 5 mm deep and 12 mm deep
+    // move around the sphere, 5 mm deep and 12 mm deep
     for (const double radius : {0.010, 0.003}) {
         double worst = 0;
         for (int i = 0; i < 3000; ++i) {
@@ -344,7 +344,7 @@ TEST(GodObject, WhatItStartsInsideOfIsFeltOnceItHasLeft) {
 }
 
 TEST(GodObject, RandomRoomsAreNeverEntered) {
-    // bodies of every kind drift and turn near each other, without touching
+    // bodies of every kind drift and turn close to each other without touching
     Random random(12, "test");
     for (int trial = 0; trial < 40; ++trial) {
         Room room;
@@ -386,8 +386,8 @@ TEST(GodObject, AllocatesNothing) {
     EXPECT_EQ(guard.count(), 0u);
 }
 
-/// Two boxes of 40 x 40 x 20 mm side by side along x, their tops at z = 0, turned by `angle` about
-/// z; the second one's top is off by `step`, as rounding leaves it.
+/// Two boxes of 40 x 40 x 20 mm side by side along x, with their tops at z = 0, turned by `angle`
+/// about z. The top of the second box is off by `step`, as rounding errors leave it.
 scene::Shape two_boards(double angle, double step) {
     scene::Shape shape;
     shape.kind = scene::ShapeKind::compound;
@@ -407,7 +407,7 @@ TEST(GodObject, SlidesOverTheSeamBetweenTwoParts) {
         for (const double step : {0.0, 4e-9, -4e-9, 5e-8}) {
             {
                 Room room;
-                room.skin = kSkin;  // otherwise a point would fall into the seam
+                room.skin = kSkin;  // otherwise the point would fall into the seam
                 room.add(two_boards(angle, step), {rotation_xyz({0.2, 0.1, 0}), {0.1, 0.2, 0.3}});
                 const auto at = [&](double x, double z) {
                     return Vec3(room.states[0].X_WB *
@@ -426,7 +426,7 @@ TEST(GodObject, SlidesOverTheSeamBetweenTwoParts) {
     }
 }
 
-/// A tray made of parts: a floor and four walls, open at the top.
+/// A tray that consists of several parts: a floor and four walls, open at the top.
 scene::Shape tray() {
     scene::Shape shape;
     shape.kind = scene::ShapeKind::compound;
@@ -456,7 +456,7 @@ TEST(GodObject, RestsInTheCornerOfATrayAndNeverEntersIt) {
               kMicron);
     EXPECT_EQ(room.point->contacts().size(), 3u);
     for (const PointContact& c : room.point->contacts()) EXPECT_EQ(c.body, 0u);
-    // pressed from inside, wherever the walls can hold the point
+    // press from inside, wherever the walls can hold the point
     Random random(5, "test");
     for (int i = 0; i < 2000; ++i) {
         const Vec3 h(random.uniform(-0.033, 0.033), random.uniform(-0.033, 0.033),
@@ -481,8 +481,8 @@ TEST(GodObject, FollowsACompoundAllocatingNothing) {
     EXPECT_EQ(guard.count(), 0u);
 }
 
-/// When a step leaves a point a micrometre deep in two bodies that pinch it, the point stays there
-/// instead of slipping out between them, millimetres away.
+/// If a step leaves a point a micrometre deep in two bodies that pinch it, the point stays there
+/// instead of slipping out between the bodies, millimetres away.
 TEST(Move, LeavesAPointWhereAStepPinchesIt) {
     Room room;
     room.skin = kSkin;
@@ -491,12 +491,12 @@ TEST(Move, LeavesAPointWhereAStepPinchesIt) {
     room.add(scene::Shape::box({0.04, 0.04, 0.02}), {tilted, {0, 0, 0.012}});
     const Vec3 p(0.001, 0, kSkin);
     room.start(p);
-    // the upper body closes on the point until 1 um is missing
+    // the upper body approaches the point until the gap is 1 um too small
     const double low = (tilted * Vec3(0, 0, -0.01 - kSkin)).z();
     room.states[1].X_WB.p.z() = kSkin - 1e-6 - low - p.x() * std::tan(0.002);
     room.point->move(p, room.states);
     EXPECT_LT((room.point->position() - p).norm(), 2e-6);
-    // and both bodies are still felt
+    // both bodies are still felt
     const auto met = room.point->obstacles(p, room.states, 1e-3);
     EXPECT_EQ(met.size(), 2u);
     for (const Obstacle& o : met) EXPECT_NEAR(std::abs(o.n_W.z()), 1, 1e-5);

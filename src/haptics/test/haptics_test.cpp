@@ -24,7 +24,7 @@ TEST(Limiter, CutsMagnitudeAndKeepsDirection) {
 }
 
 TEST(Limiter, CutsChange) {
-    Limiter limiter(100, 500);  // half a newton a tick
+    Limiter limiter(100, 500);  // half a newton per tick
     unsigned flags = 0;
     Vec3 last = Vec3::Zero();
     for (int i = 0; i < 10; ++i) {
@@ -60,7 +60,7 @@ TEST(Limiter, DropsToZeroAtOnceAndForGoodOnWhatIsNoNumber) {
     }
 }
 
-/// A finger in front of a fixed wall, solid beyond its face at x = 0.
+/// A finger in front of a fixed wall whose face is at x = 0.
 struct Scene {
     scene::Finger finger;
     World world;
@@ -133,7 +133,7 @@ TEST(ImplicitCoupling, FrictionHoldsTheProxyUntilTheHandLeavesItsCone) {
     Vec3 f;
     double largest = 0;
     for (int i = 0; i < 3000; ++i) {
-        const double x = std::min(-0.05 + 0.1 * i * kStep, 0.0075);  // 10 mm deep: 10 N
+        const double x = std::min(-0.05 + 0.1 * i * kStep, 0.0075);  // 10 mm deep, i.e. 10 N
         const double y = i < 1000 ? 0 : 0.01 * (i - 1000) * kStep;  // then along the wall, to 20 mm
         f = s.tick(finger, {{x, y, 0}, {0, i < 1000 ? 0 : 0.01, 0}});
         largest = std::max(largest, std::abs(f.y()));
@@ -143,7 +143,7 @@ TEST(ImplicitCoupling, FrictionHoldsTheProxyUntilTheHandLeavesItsCone) {
         }
     }
     EXPECT_NEAR(largest, 0.5 * 10, 0.05);
-    EXPECT_NEAR(f.y(), -5, 0.05);  // slides behind the hand
+    EXPECT_NEAR(f.y(), -5, 0.05);  // the proxy slides behind the hand
     EXPECT_NEAR(s.world.state(s.proxy).X_WB.p.y(), 0.02 - 0.005, 3e-4);
 }
 
@@ -167,7 +167,7 @@ TEST(DualSpring, SmoothsTheForceByItsFilter) {
     settings.damping = 0;
     Finger finger(s.finger, s.proxy, settings, 8.5);
     const frame::Handle handle{{-0.04, 0, 0}, Vec3::Zero()};
-    // the proxy stands still for the first force, 10 mm behind
+    // the proxy stands still during the first force, 10 mm behind the handle
     finger.begin_tick(s.world, handle, kStep);
     const Vec3 first = finger.force(s.world, handle, kStep);
     finger.begin_tick(s.world, handle, kStep);
@@ -186,8 +186,8 @@ TEST(DualSpring, DragsTheHandInFreeMotion) {
         const double t = i * kStep;
         f = s.tick(finger, {{-0.05, 2 * t * t, 0}, {0, 4 * t, 0}});
     }
-    // the proxy's 20 g at 4 m/s^2, through a spring ten times as stiff as the hand's; the damper
-    // adds a little, since the proxy's velocity is a step late
+    // a proxy of 20 g at 4 m/s^2, whose spring is ten times as stiff as the hand's; the damper adds
+    // a little, because the velocity of the proxy is a step late
     EXPECT_NEAR(f.y(), -0.02 * 4 / 10, 0.001);
 }
 
@@ -213,7 +213,7 @@ TEST(VelocityImpulse, IsBoundedByWhatTheHandMayFeel) {
     const double max_force = 2;
     Scene s;
     Finger finger(s.finger, s.proxy, velocity_impulse(k), max_force);
-    // in free space: far behind a handle that jumped, the proxy follows with at most max_force
+    // in free space: the proxy follows a handle that has jumped far away with at most max_force
     const double mass = kStep * kStep * k * 1.5;  // h^2 k + h c, c = k h / 2
     double v = 0;
     for (int i = 0; i < 5; ++i) {
@@ -222,14 +222,14 @@ TEST(VelocityImpulse, IsBoundedByWhatTheHandMayFeel) {
         EXPECT_NEAR(faster * mass / kStep, max_force, 1e-9);
         v += faster;
     }
-    // in contact: at a depth of 10 mm, the spring would give 40 N
+    // in contact: at a depth of 10 mm, the spring alone would give 40 N
     for (int i = 0; i < 2000; ++i)
         s.tick(finger, {{std::min(-0.05 + 0.1 * i * kStep, 0.0075), 0, 0}, Vec3::Zero()});
     EXPECT_NEAR(finger.touch().normal_force, max_force, 1e-6);
 }
 
 TEST(VelocityImpulse, PressesAWallWithStiffnessTimesDepthAndGivesItTheSame) {
-    for (const double k : {300.0, 4000.0}) {  // lighter and heavier than the finger's gram
+    for (const double k : {300.0, 4000.0}) {  // less and more than the finger's mass of one gram
         Scene s;
         Finger finger(s.finger, s.proxy, velocity_impulse(k), 1e3);
         Vec3 f;
@@ -240,7 +240,8 @@ TEST(VelocityImpulse, PressesAWallWithStiffnessTimesDepthAndGivesItTheSame) {
     }
 }
 
-/// A handle that runs into the wall, stays, leaves, returns within the onset, stays, and leaves.
+/// A handle that runs into the wall, stays, leaves, returns within the onset time, stays, and
+/// leaves.
 frame::Handle there_and_back(int tick) {
     const std::array<std::pair<int, double>, 7> way{{{0, -0.05},
                                                      {100, 0.0075},
@@ -281,13 +282,13 @@ TEST_P(Onsets, SoftenTouchingAndTouchingAgainWithoutAStepAndKeepTheEquilibrium) 
     Finger hard(h.finger, h.proxy, settings, 1e3);
     Vec3 last = Vec3::Zero();
     int touches = 0;
-    int ticks = 0;  // of the current touch
+    int ticks = 0;  // number of ticks of the current touch
     for (int i = 0; i < 715; ++i) {
         const frame::Handle handle = there_and_back(i);
         const Vec3 f = s.tick(soft, handle);
         const Vec3 f_hard = h.tick(hard, handle);
-        // share times k v h and c v while the handle moves, and the growth of the share at 10 mm;
-        // the dual spring's proxy bounces, and each touch has its own step
+        // share times k v h and c v while the handle moves, plus the growth of the share at 10 mm;
+        // with the dual spring, the proxy bounces, and each touch has its own step
         const double step = k * 0.57 * kStep * 1.5 + 0.9 * kStep / time * k * 0.01;
         EXPECT_LT((f - last).norm(), dual ? 2 * step : step) << i;
         last = f;
@@ -299,8 +300,8 @@ TEST_P(Onsets, SoftenTouchingAndTouchingAgainWithoutAStepAndKeepTheEquilibrium) 
         if ((i > 200 && i < 300) || i > 700) {
             EXPECT_NEAR(f.x() / f_hard.x(), 1, 1e-9);
         } else if (ticks > 2 && !dual) {
-            // once the proxy stands still, the wall gets the handle's force: the mass is scaled,
-            // too
+            // once the proxy stands still, the force on the wall is that of the handle: the mass is
+            // scaled too
             EXPECT_NEAR(soft.touch().normal_force, -f.x(), 1e-6) << i;
         }
     }

@@ -8,9 +8,9 @@
 namespace dihaptic::haptics::late_loop_test {
 namespace {
 
-/// Whether a handle of 75 g in a hand of k_h and b_h, which presses with 1.5 N on a wall of
-/// stiffness k with a damper k h / 2, comes to rest after a push of 1 mm, with a tick every T
-/// seconds.
+/// Whether a handle of 75 g comes to rest after a push of 1 mm, in a loop with one tick every T
+/// seconds. The hand has the stiffness k_h and the damping b_h, and presses with 1.5 N on a wall
+/// with stiffness k and a damper k h / 2.
 bool comes_to_rest(double k, double T, double k_h, double b_h) {
     constexpr double kTick = 1e-3;
     constexpr double kStep = 1e-4;
@@ -94,7 +94,7 @@ TEST(LateLoop, SoftensOnceAsTwice) {
 TEST(BoundRise, FollowsTheSpringThatIsHeldAndFallsFreely) {
     const Vec3 last(-2, 0, 0);
     const double k = 200;
-    // the handle goes 1 mm deeper along x, against a force along -x
+    // the handle moves 1 mm deeper along x, against a force along -x
     const Vec3 deeper(1e-3, 0, 0);
     const auto bounded = [&](double asked) {
         return bound_rise({-asked, 0, 0}, last, deeper, k, 0.01).x();
@@ -103,14 +103,14 @@ TEST(BoundRise, FollowsTheSpringThatIsHeldAndFallsFreely) {
     EXPECT_EQ(bounded(2.1), -2.1);
     EXPECT_EQ(bounded(0.3), -0.3);
     EXPECT_EQ(bound_rise(Vec3::Zero(), last, deeper, k, 0.01), Vec3::Zero());
-    // on the way out the bound falls like the force of the same spring, and so releases no more
-    // than it absorbed
+    // on the way out, the bound falls like the force of the same spring, so it releases no more
+    // energy than it absorbed
     EXPECT_DOUBLE_EQ(bound_rise({-9, 0, 0}, last, -deeper, k, 0.01).x(), -(2 - 0.2 + 0.01));
     EXPECT_DOUBLE_EQ(bound_rise({-9, 0, 0}, last, -50 * deeper, k, 0.01).x(), -0.01);
 }
 
 TEST(BoundRise, IsForTheWayInWhichTheForceActs) {
-    // a force in the opposite or a transverse direction is not a valid start
+    // a force in the opposite direction, or across it, is not a valid start
     EXPECT_DOUBLE_EQ(bound_rise({3, 0, 0}, {-2, 0, 0}, Vec3::Zero(), 200, 0.01).x(), 0.01);
     EXPECT_DOUBLE_EQ(bound_rise({0, 3, 0}, {-2, 0, 0}, {0, -1e-3, 0}, 200, 0.01).y(), 0.21);
     const Vec3 turned = bound_rise({0, 2, 2}, {0, 2, 0}, Vec3::Zero(), 200, 0);

@@ -1,4 +1,4 @@
-// A finger that presses on a fixed block, for tests of the force with each kind of proxy.
+// A finger that presses on a fixed block, for tests of the force with each type of proxy.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ constexpr double kPressedCoupling = 1000;  // [N/m]
 
 enum class PressedProxy { rigid, point_apart, point_solved };
 
-/// A finger above a fixed block whose top is at z = 0.
+/// A finger above a fixed block with its top at z = 0.
 class Pressed {
   public:
     Pressed(PressedProxy proxy, const scene::Surface& surface, double friction, int every = 1)
@@ -56,7 +56,7 @@ class Pressed {
         finger_->place(*world_, handle_);
     }
 
-    /// Moves the handle to its target at 50 mm/s, waits, and returns the force on it.
+    /// Moves the handle to p at 50 mm/s, waits, and returns the force on it.
     Vec3 go(const Vec3& p, int wait = 500) {
         const Vec3 to = p + Vec3(0, 0, lift_);
         const Vec3 from = handle_.p_WH;
@@ -66,7 +66,8 @@ class Pressed {
             f = tick(from + std::min(1.0, double(i) / ticks) * (to - from));
         return f;
     }
-    /// Moves the handle to p above the block's top within a tick; returns the force on it.
+    /// Moves the handle to p, relative to the top of the block, within a tick. Returns the force on
+    /// it.
     Vec3 move(const Vec3& p) { return tick(p + Vec3(0, 0, lift_)); }
     void set_properties(const dynamics::BodyProperties& properties) {
         world_->set_properties({0}, properties);
@@ -95,7 +96,7 @@ class Pressed {
     std::unique_ptr<Finger> finger_;
     BodyIndex body_;
     frame::Handle handle_;
-    double lift_ = 0;  // of the handle above the point that touches the block [m]
+    double lift_ = 0;  // height of the handle above the point that touches the block [m]
     int every_;
     int ticks_ = 0;
 };

@@ -14,7 +14,7 @@ namespace {
 constexpr double kStep = 1e-3;
 constexpr double kGravity = 9.81;
 
-/// A bar of 200 x 20 x 10 mm, held at its centre by a handle that turns.
+/// A bar of 200 x 20 x 10 mm, held at its centre by a handle that can turn.
 struct Bar {
     scene::Finger finger;
     World world;
@@ -37,7 +37,7 @@ struct Bar {
             RotationalCoupling(settings, world.inertia(proxy.proxy()), Quat::Identity()));
         proxy.place(world, {});
     }
-    /// Does a tick; returns the torque on the handle.
+    /// Does one tick, and returns the torque on the handle.
     Vec3 tick(const frame::Handle& handle, bool steps = true, double step = kStep) {
         proxy.begin_tick(world, handle, step);
         if (steps) {
@@ -64,7 +64,7 @@ TEST(RotationVector, IsTheInverseOfRotationBy) {
         const Vec3 r = angle * Vec3(1, -2, 0.5).normalized();
         EXPECT_LT((rotation_vector(rotation_by(r)) - r).norm(), 1e-15 + 1e-9 * angle) << angle;
     }
-    // the shorter of the two rotations
+    // returns the shorter of the two rotations
     EXPECT_LT(
         (rotation_vector(rotation_by({0, 0, 4})) - Vec3(0, 0, 4 - 2 * std::numbers::pi)).norm(),
         1e-12);
@@ -90,13 +90,13 @@ TEST(RotationalCoupling, FollowsAHandleInFreeSpaceThatFeelsNothing) {
 }
 
 TEST(RotationalCoupling, IsTheSpringAndDamperOfTheStepsEndWhateverTheInertia) {
-    // backward Euler of I dw/dt = k r - c w about one axis, computed here
+    // compare with backward Euler of I dw/dt = k r - c w about one axis
     frame::CouplingSettings settings;
     settings.turn_stiffness = 2;
     settings.turn_damping = 0.005;
     Bar bar(scene::Scene{}, settings, 0.5);
     const double I = bar.world.inertia(bar.proxy.proxy());
-    // the mean of the box's moments
+    // mean of the moments of the box
     EXPECT_NEAR(I, 0.5 / 12 * 2.0 / 3 * (0.2 * 0.2 + 0.02 * 0.02 + 0.01 * 0.01), 1e-9);
     double angle = 0, w = 0;
     double energy = 2 * 0.4 * 0.4 / 2;
@@ -105,7 +105,7 @@ TEST(RotationalCoupling, IsTheSpringAndDamperOfTheStepsEndWhateverTheInertia) {
         angle += kStep * w;
         bar.tick(turned({0, 0.4, 0}));
         ASSERT_NEAR(rotation_vector(bar.state().X_WB.R).y(), angle, 1e-9) << i;
-        // the coupling never gives out more energy than was put in
+        // the coupling never releases more energy than was put in
         const double now = I / 2 * bar.state().w_WB.squaredNorm() +
                            std::pow(0.4 - rotation_vector(bar.state().X_WB.R).y(), 2);
         ASSERT_LE(now, energy * (1 + 1e-12)) << i;
@@ -124,7 +124,7 @@ TEST(RotationalCoupling, TurnsAgainstStopsWithStiffnessTimesAngle) {
             torque = bar.tick(turned({0, 0.1 * std::min(i, 300) / 300, 0}));
         EXPECT_NEAR(torque.y() / (-k * 0.1), 1, 1e-3) << k;
         EXPECT_LT(std::hypot(torque.x(), torque.z()), 1e-5);
-        EXPECT_LT(bar.force.norm(), 1e-4);  // a pure couple
+        EXPECT_LT(bar.force.norm(), 1e-4);  // the effect is a pure couple
         // once released, the handle feels nothing
         for (int i = 0; i < 100; ++i) torque = bar.tick(turned({0, -0.1, 0}));
         EXPECT_EQ(torque, Vec3::Zero());
@@ -140,7 +140,7 @@ TEST(RotationalCoupling, CarriesWeightTimesDistance) {
     block.mass = 0.1;
     scene.bodies = {block};
     frame::CouplingSettings settings;
-    settings.damping = 10;  // otherwise the block swings, as no hand damps it
+    settings.damping = 10;  // otherwise the block swings, since no hand damps it
     settings.turn_damping = 0.05;
     Bar bar(scene, settings);
     Vec3 torque;
@@ -152,8 +152,9 @@ TEST(RotationalCoupling, CarriesWeightTimesDistance) {
     EXPECT_NEAR(rotation_vector(bar.state().X_WB.R).y(), torque.y() / 1.0, 1e-6);  // k_r = 1
 }
 
-/// Ratio of the last swing to the first, after a small push, of a handle of inertia I and damping b
-/// that a constant torque holds at its stops, with the coupling's spring through a sample and hold.
+/// Ratio of the last swing to the first one, after a small push, of a handle with inertia I and
+/// damping b that a constant torque holds against its stops, if the coupling's spring is sampled
+/// and held.
 double swing_ratio(double k, double I, double b) {
     frame::CouplingSettings settings;
     settings.turn_stiffness = k;
@@ -179,7 +180,7 @@ double swing_ratio(double k, double I, double b) {
 
 TEST(RotationalCoupling, IsStableUpToTheLimitOfAWall) {
     // x+ = x + beta v + (T - beta) u / b, v+ = a v + (1 - a) u / b, u = -k x: the product of the
-    // roots is a + k (beta (1 - a) - a (T - beta)) / b, and equals 1 at the limit
+    // eigenvalues is a + k (beta (1 - a) - a (T - beta)) / b, and equals 1 at the limit
     const double I = 1e-4, b = 0.002;
     const double a = std::exp(-b * kStep / I);
     const double beta = I / b * (1 - a);
@@ -209,7 +210,7 @@ TEST(RotationalCoupling, IsAShareOfItselfDuringOnset) {
 }
 
 TEST(RotationalCoupling, OfASoftPointFeelsTheTorsionThatItsGripHolds) {
-    // a point presses the top of a fixed block and is turned about the normal
+    // a point presses on the top of a fixed block and is turned about the normal
     scene::Scene scene;
     scene::Body block;
     block.name = "block";
@@ -251,7 +252,7 @@ TEST(RotationalCoupling, OfASoftPointFeelsTheTorsionThatItsGripHolds) {
             force = tick();
         }
         EXPECT_NEAR(force.z(), 3, 0.05);
-        // 0.5 x 6 mm x 3 N = 9 mN m, of the 30 mN m that 0.03 rad would give
+        // 0.5 x 6 mm x 3 N = 9 mN m, less than the 30 mN m that 0.03 rad would give
         EXPECT_NEAR(point.torque().z(), -0.5 * radius * force.z(), 1e-6);
         EXPECT_LT(point.torque().head<2>().norm(), 1e-6);
     }

@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
             FaultKind::device_fault}));
 
 TEST(HandleGuard, AllowsTheDistanceOfTheTimeThatPassed) {
-    // pauses are checked elsewhere: after 30 ms at 1 m/s the handle is 30 mm further
+    // pauses are checked elsewhere: after 30 ms at 1 m/s, the handle has moved by 30 mm
     HandleGuard guard(2);
     Fault fault;
     guard.accept(moving(0), FaultKind::none, 0, fault);
@@ -121,7 +121,7 @@ TEST(Fault, SaysWhatWhichWhenAndWhatToDo) {
         const std::string text = describe({kind, 0, when}, "thumb", "Premium 1.0");
         EXPECT_NE(text.find("thumb"), std::string::npos) << text;
     }
-    // a text that cannot be formatted would throw just when force is switched off
+    // a text that cannot be formatted would throw an exception just when force is switched off
     for (int i = 1; i <= static_cast<int>(FaultKind::stopped); ++i) {
         for (const int device : {-1, 0}) {
             const Fault fault{static_cast<FaultKind>(i), device, when, 2, 1};

@@ -29,7 +29,7 @@ inline scene::Shape mesh(const std::vector<Vec3>& points) {
     return shape;
 }
 
-/// A wedge 40 mm long along y, 30 mm wide from its foot at x = 0, where it is 2 mm thick, to its
+/// A wedge that is 40 mm long along y and 30 mm wide, from its 2 mm thick foot at x = 0 to its
 /// sharp edge at x = 30 mm.
 inline scene::Shape thin_wedge() {
     return mesh({{0, -0.02, 0.001},
@@ -57,7 +57,7 @@ inline Press random_press(Random& random, scene::ShapeKind kind) {
     return press;
 }
 
-/// Number of test shapes; shape(i) is one of them.
+/// Number of test shapes; shape(i) returns one of them.
 constexpr int kShapes = 8;
 inline scene::Shape shape(int i) {
     Random random(77, "test");

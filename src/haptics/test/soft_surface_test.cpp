@@ -1,5 +1,5 @@
-// Tests soft surfaces with each kind of proxy: as a spring in series with the coupling, and
-// with the friction that belongs to the felt force.
+// Tests soft surfaces with each type of proxy: they act as a spring in series with the coupling,
+// and friction corresponds to the force that is felt.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -49,7 +49,7 @@ TEST_P(SoftSurface, HasTheFrictionOfWhatIsFelt) {
     Pressed pressed(GetParam(), soft(k), kFriction);
     const double normal = in_series(k) * kDepth;
     pressed.go({0, 0, -kDepth});
-    // it holds like a spring, up to the cone
+    // the surface holds the finger like a spring, up to the limit of the friction cone
     const Vec3 held = pressed.go({0.0005, 0, -kDepth});
     EXPECT_NEAR(held.x(), -kCoupling * 0.0005, 0.02 * kCoupling * 0.0005);
     const Vec3 slid = pressed.go({0.02, 0, -kDepth}, 0);
@@ -61,7 +61,7 @@ TEST_P(SoftSurface, HoldsTheEnergyOfItsSpring) {
     constexpr double k = 400, kDepth = 0.01;
     Pressed pressed(GetParam(), soft(k), 0.5);
     pressed.go({0, 0, -kDepth});
-    // a body's own spring is in the world; a point's surface is in the coupling
+    // the surface's spring is in the world for a rigid proxy, and in the coupling for a point
     const double coupling = GetParam() == Proxy::rigid
                                 ? kCoupling / 2 * std::pow(kDepth * k / (k + kCoupling), 2)
                                 : in_series(k) / 2 * kDepth * kDepth;

@@ -1,5 +1,5 @@
-// Tests a point whose friction is solved with the dynamics: the cases of god_object_test.cpp for
-// points on surfaces, and mechanics.
+// Tests a point whose friction is solved with the dynamics: repeats the cases of
+// god_object_test.cpp for points on surfaces, and tests mechanics.
 #include "haptics/solved_point.h"
 #include "base/number.h"
 
@@ -62,7 +62,7 @@ struct Room {
         handle = {p, Vec3::Zero()};
         finger->place(*world, handle);
     }
-    /// Does one tick with the handle at p; returns the force that the handle feels.
+    /// Does one tick with the handle at p, and returns the force that the handle feels.
     Vec3 follow(const Vec3& p) {
         handle.v_WH = (p - handle.p_WH) / kTick;
         handle.p_WH = p;
@@ -82,7 +82,7 @@ struct Room {
         for (int i = 1; i <= steps; ++i) f = follow(from + (to - from) * i / steps);
         return f;
     }
-    /// Waits n ticks, until everything is at rest; returns the force.
+    /// Waits n ticks until everything is at rest, and returns the force.
     Vec3 wait(int n = 300) {
         Vec3 f = Vec3::Zero();
         for (int i = 0; i < n; ++i) f = follow(handle.p_WH);
@@ -103,8 +103,8 @@ struct Room {
 class EveryShapeSolved : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Surfaces, EveryShapeSolved, ::testing::Range(0, kShapes), shape_name);
 
-/// As EveryShape in god_object_test.cpp: moves the handle along ten thousand straight paths through
-/// a shape, in strides of up to 8 mm.
+/// Like EveryShape in god_object_test.cpp: moves the handle along ten thousand straight paths
+/// through a shape, in strides of up to 8 mm.
 TEST_P(EveryShapeSolved, PressesAreFeltOutOfTheFaceThatWasEntered) {
     Random random(4, "presses");
     Room room;
@@ -136,8 +136,8 @@ TEST_P(EveryShapeSolved, PressesAreFeltOutOfTheFaceThatWasEntered) {
                 continue;
             }
             ++pressed;
-            // from the point's last position the force leads straight away from the body, which is
-            // convex
+            // the body is convex, so the force leads straight away from it at the point's last
+            // position
             inward += surface.separation(before + 1e-3 * force_B.normalized()) < 0.999e-3;
             const Vec3 n = surface.normal(entered, before);
             const Vec3 foot =
@@ -171,7 +171,7 @@ TEST(SolvedPoint, NearABoxsCornerTheEnteredFaceIsKept) {
     const double depth = 0.01 + kSkin;
     EXPECT_LT((room.wait() - Vec3(0, 0, 1000 * depth)).norm(), 1e-6);
     EXPECT_LT((room.position() - Vec3(0.019, 0, 0.02 + kSkin)).norm(), 1e-8);
-    // beyond the edge the point is free, and on re-entry the side is felt
+    // beyond the edge the point is free, and on re-entry it touches the side
     room.go({0.022, 0, 0.010});
     EXPECT_EQ(room.wait(), Vec3::Zero());
     room.go({0.012, 0, 0.010});
@@ -181,11 +181,11 @@ TEST(SolvedPoint, NearABoxsCornerTheEnteredFaceIsKept) {
 TEST(SolvedPoint, PushingThroughAThinWedgeIsFeltOutThroughTheFaceItCameBy) {
     Room room;
     room.add(thin_wedge());
-    const Vec3 n = Vec3(0.001, 0, 0.03).normalized();  // of the upper face
+    const Vec3 n = Vec3(0.001, 0, 0.03).normalized();  // normal of the upper face
     for (const double stride : {1e-4, 0.028}) {        // slowly, and in a single tick
         room.start({0.015, 0.003, 0.01});
         room.go({0.015, 0.003, -0.008}, stride);
-        EXPECT_GT(room.wait().norm(), 8);  // deeper than the wedge is thick
+        EXPECT_GT(room.wait().norm(), 8);  // farther than the wedge is thick
         EXPECT_LT(room.wait().normalized().cross(n).norm(), 1e-6);
         EXPECT_GT(room.wait().z(), 0);
         EXPECT_LT(room.depth(), kMicron);
@@ -202,7 +202,7 @@ TEST(SolvedPoint, ThreeWallsOfARoomsCornerHoldItInTheCorner) {
     EXPECT_LT((room.wait() - Vec3(4, 3, 2) - Vec3::Constant(1000 * kSkin)).norm(), 1e-6);
     EXPECT_LT((room.position() - Vec3::Constant(kSkin)).norm(), 1e-8);
     EXPECT_EQ(room.world->contacts().size(), 3u);
-    // out along one wall: two constraints, then one
+    // moving out along one wall leaves two constraints, then one
     room.go({0.01, -0.003, -0.002});
     EXPECT_LT((room.wait() - Vec3(0, 3, 2) - 1000 * Vec3(0, kSkin, kSkin)).norm(), 1e-6);
     room.go({0.01, 0.01, -0.002});
@@ -210,7 +210,7 @@ TEST(SolvedPoint, ThreeWallsOfARoomsCornerHoldItInTheCorner) {
 }
 
 TEST(SolvedPoint, ATurntableCarriesItAround) {
-    // stuck to a disc that turns freely and pulled along a circle, the point turns the disc with it
+    // the point sticks to a disc that turns freely and, pulled along a circle, turns the disc
     Room room;
     scene::Body& disc = room.add(round(scene::ShapeKind::cylinder, 0.05, 0.02), {0, 0, -0.01});
     disc.fixed = false;
@@ -229,7 +229,7 @@ TEST(SolvedPoint, ATurntableCarriesItAround) {
 }
 
 TEST(SolvedPoint, AFallingPlateIsCaughtAndItsWeightFelt) {
-    // a plate of 200 g that can only move up and down falls on a point that waits
+    // a plate of 200 g that can only move vertically falls on a point that waits
     Room room;
     room.scene.gravity = {0, 0, -9.81};
     scene::Body& plate = room.add(scene::Shape::box({0.05, 0.05, 0.002}), {0, 0, 0.02});
@@ -250,8 +250,8 @@ TEST(SolvedPoint, AFallingPlateIsCaughtAndItsWeightFelt) {
 }
 
 TEST(SolvedPoint, SticksUnderStaticFrictionAndSlidesAtDynamicFriction) {
-    // at a depth of 2 mm static friction of 0.8 holds 1.6 N, and dynamic friction, half of it, 0.8
-    // N
+    // at a depth of 2 mm, static friction of 0.8 holds 1.6 N, and dynamic friction, half as large,
+    // 0.8 N
     Room room;
     room.add(round(scene::ShapeKind::plane, 0, 0)).friction = 0.64;  // 0.8 for the pair
     room.proxy.sliding_friction = 0.5;
@@ -262,7 +262,7 @@ TEST(SolvedPoint, SticksUnderStaticFrictionAndSlidesAtDynamicFriction) {
     EXPECT_LT(room.position().head<2>().norm(), 1e-7);
     const Vec3 f = room.go({0.02, 0, -0.002 + kSkin});
     EXPECT_NEAR(f.x() / f.z(), -0.4, 1e-6);
-    // the point comes to rest, and sticks again up to the static cone
+    // the point comes to rest and sticks again, up to the limit of static friction
     room.wait();
     const double rest = room.position().x();
     room.go({rest + 0.00155, 0, -0.002 + kSkin}, 1e-5);
@@ -282,7 +282,7 @@ TEST(SolvedPoint, BetweenStepsOfTheWorldTheForceIsThatOfTheHandle) {
         const double f = room.follow(h).z();
         EXPECT_NEAR(f, std::max(0.0, 1000 * (kSkin - h.z())), 1e-6) << i;
     }
-    // while the point sticks, the spring's force along the surface stays in the cone in every tick
+    // while the point sticks, the tangential force of the spring is within the cone in every tick
     for (int i = 0; i < 100; ++i) {
         const Vec3 f = room.follow(room.handle.p_WH + Vec3(2e-4, 0, 0));
         EXPECT_LE(f.head<2>().norm(), f.z() * (1 + 1e-9)) << i;
@@ -304,7 +304,7 @@ TEST(SolvedPoint, ASurfaceThatIsPressedTooHardYieldsUntilThePointHasLeftIt) {
         room.go({0, 0, -0.02}, 1e-5);
         EXPECT_EQ(room.wait(), Vec3::Zero());
         EXPECT_LT((room.position() - Vec3(0, 0, -0.02)).norm(), 1e-9);
-        // bodies beyond the box are felt, and so is the box once the point has been outside it
+        // bodies beyond the box are felt, and so is the box once the point has left it
         room.go({0, 0, -0.041}, 1e-5);
         EXPECT_NEAR(room.wait().z(), 1 + 1000 * kSkin, 1e-3);
         room.go({0.03, 0, -0.035}, 1e-5);

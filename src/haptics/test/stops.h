@@ -1,12 +1,12 @@
-// Two stops for a bar along x.
+// Two stops for a bar that lies along x.
 #pragma once
 
 #include "scene/scene.h"
 
 namespace dihaptic::haptics {
 
-/// Two blocks, 1 um above one end of a bar of 0.2 x 0.02 x 0.01 m and below the other: they keep
-/// the bar from turning about +y, which would move its end at +x down.
+/// Two blocks, one 1 um above one end of a bar of 0.2 x 0.02 x 0.01 m, the other 1 um below its
+/// other end. They prevent the bar from turning about +y, which would move its +x end down.
 inline scene::Scene stops() {
     scene::Scene out;
     for (const int side : {-1, 1}) {

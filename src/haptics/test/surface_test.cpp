@@ -1,4 +1,4 @@
-// Entries of straight paths into a cone, compared with a search along them.
+// Tests where straight paths enter a cone, compared with a search along the paths.
 #include "haptics/surface.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace dihaptic::haptics::surface_test {
 namespace {
 
-/// The s at which p + s d is deepest in a convex shape, by ternary search.
+/// The s for which p + s d is deepest in a convex shape, found by ternary search.
 double deepest(const scene::Shape& shape, const Vec3& p, const Vec3& d) {
     double low = 0, high = 1;
     for (int i = 0; i < 120; ++i) {
@@ -24,7 +24,7 @@ double deepest(const scene::Shape& shape, const Vec3& p, const Vec3& d) {
     return (low + high) / 2;
 }
 
-/// The first s at which p + s d is in the shape, from one outside to one inside.
+/// The first s for which p + s d is in the shape, found between an s outside and an s inside.
 double entry(const scene::Shape& shape, const Vec3& p, const Vec3& d, double inside) {
     double low = 0, high = inside;
     for (int i = 0; i < 60; ++i) {
@@ -62,7 +62,7 @@ TEST(Surface, PathsEnterConesWhereTheyMeetThem) {
             const Vec3 to = 0.6 * size * random_vector(random);
             const Vec3 from = 2 * size * random_vector(random).normalized();
             expect_enters(cone, from, random.uniform(0.3, 2) * (to - from), entered);
-            // along a line of the cone's side, and just next to that line
+            // parallel to a line of the cone's side, and nearly parallel to it
             const double angle = random.uniform(0, 2 * std::numbers::pi);
             const Vec3 line(radius * std::cos(angle), radius * std::sin(angle), -height);
             const Vec3 beside = i % 2 == 0 ? Vec3(line) : Vec3(line + 1e-9 * to);

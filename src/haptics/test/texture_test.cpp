@@ -1,4 +1,4 @@
-// Tests textures: variation of friction and height along a surface.
+// Tests textures, i.e. variations in friction and height along a surface.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -25,7 +25,8 @@ scene::Texture grating() {
     return out;
 }
 
-/// Friction over normal force while a finger is drawn over a block at 20 mm/s, by position.
+/// The ratio of friction to normal force, by position, while a finger is drawn over a block at 20
+/// mm/s.
 std::vector<std::pair<Vec3, double>> drawn(Proxy proxy, const scene::Texture& texture,
                                            const Vec3& direction) {
     scene::Surface surface;
@@ -88,7 +89,7 @@ scene::Surface surface_with(const scene::Texture& texture) {
     return out;
 }
 
-/// Ridges of 0.2 mm without friction: the proxy rides on them, and the force is perpendicular to
+/// Frictionless ridges 0.2 mm high: the proxy rides on them, and the force is perpendicular to
 /// their slope.
 TEST_P(High, RidgesLiftAndPushBackAsTheirSlopeSays) {
     scene::Texture ridges = smooth_ridges(2e-4);
@@ -187,7 +188,7 @@ TEST(Texture, TurnsWithItsBody) {
     scene.bodies = {block, other};
     World world(scene, frame::DynamicsSettings{});
     world.activate();
-    // its x is the world's y
+    // the texture's x is the world's y
     EXPECT_NEAR(world.friction_at({0}, {1}, {1.4, 2 + kWave / 2, 3.05}, Vec3::UnitZ()),
                 0.6 * kFriction, 1e-9);
     EXPECT_NEAR(world.friction_at({1}, {0}, {1.4, 2, 3.05}, Vec3::UnitZ()), 1.4 * kFriction, 1e-9);

@@ -1,5 +1,6 @@
-// Tests headsets on the tests' OpenXR runtime, with OpenXR's validation layer in between, which
-// must report nothing. The display is one of Xvfb, since pictures are drawn by OpenGL on X11.
+// Tests headsets on the tests' own OpenXR runtime, with OpenXR's validation layer in between, which
+// must report nothing. The display is provided by Xvfb, because pictures are drawn with OpenGL on
+// X11.
 #include "headset/headset.h"
 #include "base/number.h"
 
@@ -32,7 +33,7 @@ using test::Pretence;
 using test::RuntimeEye;
 using test::RuntimePose;
 
-/// An X11 display that appears on no screen.
+/// An X11 display that is not shown on any screen.
 class Xvfb {
   public:
     Xvfb() {
@@ -86,7 +87,8 @@ class HeadsetTest : public ::testing::Test {
             GTEST_SKIP() << "Xvfb does not start; it is in the Debian package xvfb";
     }
 
-    /// The findings of the validation layer. Newer layers also report that they begin and end.
+    /// The messages from the validation layer. Newer versions of the layer also report that they
+    /// begin and end.
     std::string messages() const {
         std::istringstream all(testing::read_file(messages_));
         std::string out;
@@ -135,7 +137,7 @@ RuntimePose to_runtime(const Pose& X) {
             {out.orientation.x, out.orientation.y, out.orientation.z, out.orientation.w}};
 }
 
-/// A person's head at one place, looking at another.
+/// The pose of a person's head that is in one place and looks at another.
 Pose head_at(const Vec3& at, const Vec3& looked_at) {
     const Vec3 backward = (at - looked_at).normalized();
     const Vec3 right = Vec3::UnitZ().cross(backward).normalized();
@@ -144,7 +146,7 @@ Pose head_at(const Vec3& at, const Vec3& looked_at) {
     return {Quat(R), at};
 }
 
-/// A head somewhere in front of the table, and eyes that look a little outward, as in wide
+/// A head somewhere in front of the table, with eyes that look slightly outwards, as in wide
 /// headsets.
 struct Seen {
     Pretence pretence;
@@ -175,7 +177,8 @@ Seen random_head(Random& random, const Pose& X_WS) {
     return out;
 }
 
-/// Where a pinhole camera at an eye sees a point, in pixels from the picture's upper left.
+/// The position at which a pinhole camera at an eye sees a point, in pixels from the upper left
+/// corner of the picture.
 Eigen::Vector2d pinhole(const RuntimeEye& eye, const Pose& X_WE, const Vec3& p_W, int width,
                         int height) {
     const Vec3 p_E = X_WE.inverse() * p_W;
@@ -185,7 +188,7 @@ Eigen::Vector2d pinhole(const RuntimeEye& eye, const Pose& X_WE, const Vec3& p_W
     return {(x - left) / (right - left) * width, (up - y) / (up - down) * height};
 }
 
-/// A head at its space's origin.
+/// A head at the origin of its space, looking ahead.
 Pretence looks_ahead() {
     Pretence out;
     for (RuntimeEye& eye : out.eyes) eye = {{}, -0.7f, 0.7f, 0.7f, -0.7f};
@@ -198,7 +201,7 @@ std::vector<Showing> next_showings(Headset& headset) {
     return out;
 }
 
-/// Frames of which the newest stays the same.
+/// Frames whose newest frame never changes.
 std::shared_ptr<Headset::Frames> still(const frame::Frame& frame) {
     return std::make_shared<Headset::Frames>(frame);
 }
@@ -272,7 +275,7 @@ TEST_F(HeadsetTest, IsHeldAgainstAValidationLayerThatTellsOfMistakes) {
     EXPECT_NE(messages(), "");
 }
 
-/// A table with a block on it, without fingers.
+/// A scene with a table, a block on it, and no fingers.
 scene::Scene block_scene() {
     view::Balls out;
     out.add({0, 0, 0.02}, 0.02);
@@ -311,7 +314,7 @@ TEST_F(HeadsetTest, HasTheColoursThatAScreenHas) {
     int other = 0;
     for (size_t i = 0; i < expected.rgb.size(); ++i)
         other += std::abs(expected.rgb[i] - picture.rgb[i]) > 2 ? 1 : 0;
-    // edges may differ, as the pose was rounded to single precision
+    // edges may differ, because the pose was rounded to single precision
     EXPECT_LT(other, static_cast<int>(expected.rgb.size()) / 500);
 }
 
@@ -334,7 +337,7 @@ TEST_F(HeadsetTest, TellsWhichTickWasSeenWhenAndFromWhere) {
     EXPECT_TRUE(showings[0].tracked);
     EXPECT_LT((showings[0].X_WV.p - seen.X_WV.p).norm(), 1e-6);
     EXPECT_LT(angle_between(showings[0].X_WV.R, seen.X_WV.R), 1e-6);
-    // the runtime's clock is the steady one
+    // the runtime's clock is the steady clock
     EXPECT_LE(std::abs(showings[0].at.time_since_epoch().count() - handed.time), 1'000'000'000);
     EXPECT_EQ(messages(), "");
 }
@@ -380,7 +383,7 @@ TEST_F(HeadsetTest, HangsWordsUprightBeforeTheHead) {
     EXPECT_TRUE(next_picture().words.rgba.empty());
     Words words;
     words.rgba.assign(size_t{4} * Words::kWidth * Words::kHeight, 0);
-    // a red pixel at the upper left
+    // a red pixel in the upper left corner
     words.rgba[0] = words.rgba[3] = 255;
     headset.set_words(words);
     pretend(seen.pretence);
@@ -390,7 +393,7 @@ TEST_F(HeadsetTest, HangsWordsUprightBeforeTheHead) {
     EXPECT_EQ(with.words.rgba[upper_left], 255);
     EXPECT_EQ(with.words.rgba[upper_left + 1], 0);
     EXPECT_EQ(with.words.rgba[0], 0);
-    // a metre in front of the head, and turned to it
+    // the words are one metre in front of the head, and are turned towards it
     const auto& X = with.words_pose;
     const Pose X_SP{Quat(X.R[3], X.R[0], X.R[1], X.R[2]), {X.p[0], X.p[1], X.p[2]}};
     const Vec3 ahead = seen.X_WV.R * Vec3(0, 0, -1);

@@ -1,7 +1,7 @@
-// An OpenXR runtime for the tests: it does what the specification requires of one with a stereo
-// headset and OpenGL, but shows nothing. It writes every tenth picture to the folder that
-// DIHAPTIC_TEST_RUNTIME_PICTURES names, as left.ppm, right.ppm and words.ppm; a file called end in
-// that folder ends the session.
+// An OpenXR runtime for the tests. It does everything that the specification requires of a runtime
+// with a stereo headset and OpenGL, but shows nothing. It writes every tenth picture to the folder
+// named in DIHAPTIC_TEST_RUNTIME_PICTURES, as left.ppm, right.ppm and words.ppm. A file called
+// `end` in that folder ends the session.
 #include "runtime.h"
 
 #include <chrono>
@@ -38,7 +38,7 @@ struct Runtime {
     std::mutex guard;
     std::condition_variable handed_over;
     Pretence pretence;
-    int64_t pretended = 0;  // number of pictures begun when it was set
+    int64_t pretended = 0;  // number of pictures that had been begun when the pretence was set
     Handed handed;
     int64_t begun = 0;
     int64_t begun_of_handed = 0;
@@ -82,7 +82,7 @@ RuntimePose pose_of(const XrPosef& X) {
             {X.orientation.x, X.orientation.y, X.orientation.z, X.orientation.w}};
 }
 
-/// Answers a call that lists items: how many there are, and those that there is room for.
+/// Answers a call that lists items: returns their number, and as many of them as there is room for.
 template <class Item>
 XrResult list(const std::vector<Item>& items, uint32_t room, uint32_t* count, Item* out) {
     *count = static_cast<uint32_t>(items.size());
@@ -424,7 +424,7 @@ XRAPI_ATTR XrResult XRAPI_CALL proc_address(XrInstance, const char* name, PFN_xr
     return found == all.end() ? XR_ERROR_FUNCTION_UNSUPPORTED : XR_SUCCESS;
 }
 
-// What the loader and a runtime agree on, according to the loader's own specification.
+// What the loader and a runtime agree on, as defined in the loader's own specification.
 struct LoaderInfo {
     int type;
     uint32_t version;

@@ -1,5 +1,5 @@
-// Tests the device host from its program's side, on fakes of the manufacturers' libraries, which it
-// loads in its own process. test/force_test.py tests the whole program.
+// Tests the device host from the program's side. The device host loads fakes of the manufacturers'
+// libraries into its own process. test/force_test.py tests the whole program.
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
@@ -44,7 +44,7 @@ Order order_on(const std::string& backend) {
     return order;
 }
 
-/// The state of the devices in the fake libraries.
+/// What the devices in the fake libraries are doing.
 class Felt {
   public:
     Felt() : file_(folder_.write("felt", std::string(sizeof(devices::Felt) * 8, '\0'))) {
@@ -58,7 +58,8 @@ class Felt {
         in.read(reinterpret_cast<char*>(&out), sizeof(out));
         return out;
     }
-    /// Waits until no device pushes; returns the time from `since` to that [s], NaN after 2 s.
+    /// Waits until no device exerts a force. Returns the time from `since` until then [s], or NaN
+    /// if that takes more than 2 s.
     double gone_after(int64_t since) const {
         const int64_t begin = monotonic();
         while ((*this)[0].force != 0 || (*this)[1].force != 0) {
@@ -106,7 +107,8 @@ class Kept : public ::testing::TestWithParam<const char*> {
     Order order = order_on(GetParam());
     bool hd = std::string(GetParam()) == "openhaptics";
 
-    /// Calls `tick` at the devices' pace, or else at 1 kHz, until it returns false.
+    /// Calls `tick` until it returns false, at the devices' own pace or, if they do not pace, at 1
+    /// kHz.
     static void run(devices::DeviceGroup& devices, const std::function<bool()>& tick) {
         if (devices.paces()) return devices.pace(tick);
         while (tick()) std::this_thread::sleep_for(milliseconds(1));
@@ -158,7 +160,7 @@ TEST_P(Kept, DevicesGiveTheForceOfEachTickWithoutAllocating) {
             return false;
         });
         EXPECT_TRUE(well);
-        if (!hd) {  // HD's scheduler has stopped, so that no force acts
+        if (!hd) {  // HD's scheduler has stopped, so no force acts
             EXPECT_EQ(felt[1].force, 2);
         }
         kept->deactivate();
@@ -176,7 +178,7 @@ TEST_P(Kept, DevicesLoseTheirForceWhenTheProgramIsSilent) {
     double again = 0;
     run(*kept, [&] {
         kept->read(Time(ticks), readings);
-        if (++ticks == 300) {  // HD's force has ramped up by then
+        if (++ticks == 300) {  // by then, HD's force has ramped up
             EXPECT_GT(felt[0].force, 1);
             gone = felt.gone_after(monotonic());
         }
@@ -185,8 +187,8 @@ TEST_P(Kept, DevicesLoseTheirForceWhenTheProgramIsSilent) {
         return ticks < 400;
     });
     EXPECT_GT(gone, order.hosting.longest_silence - 0.005);
-    EXPECT_LT(gone, order.hosting.longest_silence + 0.5);  // allows for a busy machine
-    EXPECT_GT(again, 1);  // whether force may come back is decided by the servo
+    EXPECT_LT(gone, order.hosting.longest_silence + 0.5);  // a margin for busy machines
+    EXPECT_GT(again, 1);  // the servo decides whether force may come back
 }
 
 TEST_P(Kept, DevicesAreAtZeroWhenTheProgramIsAboutToDie) {
@@ -221,7 +223,7 @@ TEST_P(Kept, DevicesAreAtZeroWhenTheProgramIsAboutToDie) {
     EXPECT_GT(again, 1);
 }
 
-/// The device host that this process started last; this process has no other children.
+/// The device host that this process started last. This process has no other children.
 pid_t keeper_pid() {
     std::ifstream children("/proc/self/task/" + number_text(getpid()) + "/children");
     pid_t out = 0;
@@ -230,7 +232,7 @@ pid_t keeper_pid() {
 }
 
 TEST_P(Kept, DevicesOfAKeeperThatWasStoppedLoseTheirForceAtOnceWhenItGoesOn) {
-    // the firmware's watchdog would do this by itself
+    // the firmware's watchdog would end the force by itself
     if (!hd) {
         for (devices::DeviceConfig& config : order.configs)
             config.options.set("watchdog", Node::plain_word("no"));
@@ -250,16 +252,17 @@ TEST_P(Kept, DevicesOfAKeeperThatWasStoppedLoseTheirForceAtOnceWhenItGoesOn) {
             kill(host, SIGSTOP);
             waitpid(host, nullptr, WUNTRACED);
         }
-        kept->write(kPush);  // the request that it finds when resumed is old
+        kept->write(kPush);  // by the time the device host is resumed, this request is old
         if (!last) return true;
-        // longer than any force may last without a request, or HD may miss callbacks
+        // longer than a force may last without a request, and longer than HD may go without a
+        // callback
         std::this_thread::sleep_for(milliseconds(150));
         const int64_t begin = monotonic();
         kill(host, SIGCONT);
         gone = felt.gone_after(begin);
         return false;
     });
-    // on an idle machine; a new request would hold the force for twice this time
+    // on an idle machine; a new request would hold the force for twice as long
     EXPECT_LT(gone, order.hosting.longest_silence / 2);
 }
 
@@ -276,7 +279,7 @@ TEST(Host, ThatDoesNotAnswerIsGivenUpWhenTheProgramIsInterrupted) {
     } catch (const Error& e) {
         EXPECT_NE(std::string(e.what()).find("interrupted while"), std::string::npos) << e.what();
     }
-    // the device host's process is ended too, which takes kSetDown
+    // the device host's process has to be ended too, which takes kSetDown
     EXPECT_LT(static_cast<double>(monotonic() - begin) * 1e-9, 20);
 }
 
@@ -298,7 +301,7 @@ TEST_P(Kept, DevicesHaveOneOwnerAtATime) {
     }
     first->deactivate();
     second->activate();
-    // the kernel releases the claims of a killed device host
+    // the kernel releases the claims of a device host that was killed
     kill(keeper_pid(), SIGKILL);
     first->activate();
 }

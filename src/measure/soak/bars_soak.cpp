@@ -1,4 +1,4 @@
-// Tests the bars of the solvers that src/measure/test/bars_test.cpp leaves out.
+// Tests the bars of those solvers that src/measure/test/bars_test.cpp leaves out.
 #include "measure/test/bars.h"
 
 namespace dihaptic::measure {

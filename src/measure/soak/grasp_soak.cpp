@@ -1,11 +1,12 @@
-// Solves grasps that vary in every parameter that an experiment may vary, a million solves in a
-// row, to count how often a solver falls back to another, and to check whether a solve ever misses
-// its tolerance.
+// Solves a million grasps, which vary in every parameter that an experiment may vary. Counts how
+// often a solver falls back to a different one, and checks whether a solve ever misses its
+// tolerance.
 //
-// The first, quick starts of newton (kNewtonStarts) were chosen on the first family, so that
-// family shows the fit, and the others test the choice. The seeds and ranges of the others were
-// fixed before their first run. Five misses of the third family showed that the later starts must
-// be cautious (docs/adr/0034-caution.md); other problems showed how cautious.
+// The first, quick starting points of the newton solver (kNewtonStarts) were chosen using the first
+// family, so that family shows the quality of the fit, while the other families test the choice.
+// Their seeds and ranges were fixed before their first run. Five misses in the third family showed
+// that the later starts must be cautious (docs/adr/0034-caution.md); other problems showed how
+// cautious they must be.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,9 +18,10 @@ namespace dihaptic::measure {
 namespace {
 
 enum class Family {
-    chosen_on,    ///< the grasps on which newton's starts were chosen
-    other_seed,   ///< other draws from the same ranges
-    other_grips,  ///< squeezed by 2 to 30 mm, in gusts, by fingers further off centre
+    chosen_on,    ///< the grasps for which newton's starts were chosen
+    other_seed,   ///< different random draws from the same ranges
+    other_grips,  ///< squeezed by 2 to 30 mm, pushed in gusts, and held by fingers further off
+                  ///< centre
 };
 constexpr auto enum_names(Family) {
     return std::array{"chosen_on", "other_seed", "other_grips"};
@@ -33,7 +35,8 @@ struct Case {
 class Soak : public ::testing::TestWithParam<Case> {
   protected:
     bool is_other() const { return GetParam().family == Family::other_grips; }
-    /// Scenes are drawn from this stream, and the pushes of run i from a stream of seed pushes + i.
+    /// The random stream from which scenes are drawn. The pushes in run i are drawn from a stream
+    /// with the seed pushes() + i.
     Random scenes() const {
         return GetParam().family == Family::chosen_on ? Random(1, "grasp soak")
                                                       : Random(2012, enum_name(GetParam().family));
@@ -60,7 +63,7 @@ TEST_P(Soak, AMillionSolvesOfGrasps) {
     const contact::Solver solver = GetParam().solver;
     Random random = scenes();
     int64_t solves = 0;
-    int64_t fallbacks = 0;  // with newton, all; with other solvers, those with up to 12 contacts
+    int64_t fallbacks = 0;  // for solvers other than newton, only with up to 12 contacts
     int64_t missed = 0;
     int64_t not_finite = 0;
     std::array<int64_t, enum_names(contact::Route{}).size()> routes{};
@@ -93,7 +96,7 @@ TEST_P(Soak, AMillionSolvesOfGrasps) {
         const frame::Director shake = [&](const frame::Frame& frame, std::span<const frame::Handle>,
                                           frame::Commands& commands) {
             contacts = 0;
-            // gusts of 50 ms in every 200 ms, five times as strong
+            // gusts last 50 ms in every 200 ms, and are five times as strong
             const bool gust = is_other() && frame.sequence % 200 < 50;
             const double size = setup.mass * (gust ? 25 : 5);
             frame::add(commands.task.loads,

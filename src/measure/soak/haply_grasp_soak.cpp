@@ -1,5 +1,5 @@
-// Compares all figures of `dihaptic bench grasp` on Inverse3 devices behind a fake service with
-// those on the same devices simulated directly.
+// Compares all figures of `dihaptic bench grasp` for Inverse3 devices behind a fake service with
+// the figures for the same devices simulated directly.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
-// Tests that all figures of bench grasp are the same through fakes of the makers' libraries as on
-// the simulated devices themselves. src/measure/test/makers_test.cpp tests the main figures.
+// Tests that all figures of bench grasp are the same for fakes of the manufacturers' libraries as
+// for the simulated devices themselves. src/measure/test/makers_test.cpp tests only the main
+// figures.
 #include "measure/test/alike.h"
 #include "measure/test/makers.h"
 

@@ -1,4 +1,4 @@
-// Compares the figures of two runs of a bench.
+// Compares the figures of two runs of a benchmark.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 
 namespace dihaptic::measure {
 
-/// Expects the same numbers under the same names. Figures below a thousandth, in the unit that the
-/// bench prints, count as zero.
+/// Expects the same numbers under the same names. Figures below 0.001, in the unit in which the
+/// benchmark prints them, count as zero.
 inline void expect_alike(const nlohmann::json& a, const nlohmann::json& b,
                          const std::string& name) {
     ASSERT_EQ(a.type(), b.type()) << name;

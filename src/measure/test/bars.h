@@ -1,5 +1,5 @@
-// Bars for the figures that the project claims for the default coupling, for each solver; tests and
-// soaks use them.
+// Bars (limits) for the figures that the project claims for the default coupling, for each solver.
+// Both tests and soaks use these bars.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,13 +12,13 @@
 
 namespace dihaptic::measure {
 
-/// A solver's name, for tests with the solver as their parameter.
+/// Returns the name of a solver, for tests whose parameter is the solver.
 inline std::string solver_name(const ::testing::TestParamInfo<contact::Solver>& which) {
     return std::string(enum_name(which.param));
 }
 
-/// Largest slip of a finger while it holds [mm]. An exact solution sticks up to rounding; Bullet's
-/// iterations end near it.
+/// Largest slip allowed for a finger during the hold [mm]. With an exact solution, fingers stick up
+/// to rounding errors; Bullet's iterations end near the exact solution.
 inline double slip_bar(contact::Solver solver, Fingering fingering) {
     switch (solver) {
         case contact::Solver::newton:
@@ -31,12 +31,13 @@ inline double slip_bar(contact::Solver solver, Fingering fingering) {
     }
     return 0;
 }
-/// Largest slip of a finger during the lift [mm].
+/// Largest slip allowed for a finger during the lift [mm].
 inline double lift_slip_bar(contact::Solver solver, Fingering fingering) {
     return solver == contact::Solver::sequential_impulse ? 0.01 : slip_bar(solver, fingering);
 }
 
-/// Expects the stiffest hold that is claimed, beyond the bench's table.
+/// Expects that the block is held at the highest stiffness claimed, which is beyond the benchmark's
+/// table.
 inline void expect_held_at_6000(BenchSetup setup) {
     setup.settings.coupling.stiffness = 6000;
     for (const Fingering fingering : {Fingering::ideal, Fingering::real, Fingering::off_centre}) {
@@ -91,16 +92,16 @@ inline void expect_bars_of_grasp(contact::Solver solver, frame::CouplingKind cou
     }
 }
 
-/// Expects that a block of this mass is held calmly or dropped, by the mass that the grip can carry
-/// in closed form, 2 mu F / g.
+/// Expects that a block of this mass is either held calmly or dropped, depending on the mass that
+/// the grip can carry in closed form, 2 mu F / g.
 inline void expect_hold_as_friction_says(contact::Solver solver, double friction, double mass) {
     BenchSetup setup;
     setup.settings.dynamics.solver = solver;
     setup.settings.coupling.stiffness = 1000;
     setup.friction = friction;
     setup.mass = mass;
-    // the hand gives way under a heavy block, and bobs: it is raised further by that amount, and
-    // slowly enough for "never 1 mm lower" to test the grip alone
+    // the hand yields under a heavy block, and bobs: it is raised further by the amount it yields,
+    // and so slowly that "never 1 mm lower" tests only the grip
     setup.rise_time = 2;
     const double load = mass * 9.81 / 2;
     setup.lift += model::series_spring_stretch(load, setup.impedance.stiffness, 1000);
@@ -117,7 +118,8 @@ inline void expect_hold_as_friction_says(contact::Solver solver, double friction
     }
 }
 
-/// The heaviest block that has to be held at this friction, and the lightest that has to fall [kg].
+/// Returns the heaviest block that must be held with this friction, and the lightest block that
+/// must fall [kg].
 inline std::pair<double, double> held_and_dropped(double friction) {
     const double most = 2 * friction * press_force({}) / 9.81;
     return {most / 1.1 * (1 - 1e-9), most / 0.9 * (1 + 1e-9)};

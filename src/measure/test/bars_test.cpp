@@ -1,5 +1,5 @@
-// Tests the bars of the default solver; a soak tests those of the others, each of which takes a
-// minute.
+// Tests the bars of the default solver. A soak tests the bars of the other solvers, each of which
+// takes a minute.
 #include "measure/test/bars.h"
 
 namespace dihaptic::measure::bars_test {
@@ -9,8 +9,8 @@ TEST(GraspBars, AreReached) {
     expect_bars_of_grasp(contact::Solver::newton);
 }
 
-/// Friction at the ends of 0.3 to 1.2, masses on both sides of what the grip can carry, and the
-/// lightest block; a soak tests all solvers, and the grid in between.
+/// Tests both ends of the friction range 0.3 to 1.2, masses just below and above what the grip can
+/// carry, and the lightest block. A soak tests all solvers, and the values in between.
 TEST(BenchGrasp, HoldsWhatFrictionHoldsAndDropsTheRest) {
     for (const double friction : {0.3, 1.2}) {
         const auto [held, dropped] = held_and_dropped(friction);
@@ -32,7 +32,7 @@ TEST(BenchGrasp, ShowsTheFaultsOfTheDualSpring) {
 TEST(BenchGrasp, SeesWhatIsNotHeld) {
     BenchSetup setup;
     setup.settings.coupling.stiffness = 1000;
-    setup.friction = 0.1;  // the block needs 4.9 N of grip, and gets 3.5 N
+    setup.friction = 0.1;  // the block needs a grip of 4.9 N, but gets only 3.5 N
     EXPECT_FALSE(measure_hold(setup).held);
 }
 

@@ -1,4 +1,4 @@
-// Tests what one finger feels against mechanics.
+// Tests the forces that one finger feels against mechanics.
 #include <gtest/gtest.h>
 
 #include "base/number.h"
@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-/// Both kinds of proxy; a point's friction is solved either together with the dynamics or apart.
+/// The kinds of proxy: a rigid body, and a point whose friction is solved either together with the
+/// dynamics or apart from it.
 enum class Way { rigid, together, apart };
 class Felt : public ::testing::TestWithParam<Way> {
   protected:
@@ -42,13 +43,13 @@ TEST_P(Felt, PushingABlockIsItsMassTimesAccelerationPlusFriction) {
     double last_ratio = 0;
     bench.run([&](const frame::Frame& frame) {
         const Vec3 v = frame.bodies[1].v_WB;
-        // with friction apart, a point's force acts on the block in the next step
+        // if friction is solved apart, the force of a point acts on the block in the next step
         const double now = -frame.fingers[0].f_sent_W.x();
         const double force = apart() ? force_before : now;
         force_before = now;
         const double expected = setup.mass * (v.x() - v_before.x()) / setup.settings.tick() +
                                 setup.friction * setup.mass * kGravity;
-        // only while the block is pushed and slides; the first ticks of touch accelerate it
+        // only while the block is pushed and slides, since the first ticks of touch accelerate it
         if (v.x() > 0.05 && v_before.x() > 0.05 && force > 0.1) {
             EXPECT_NEAR(force / expected, 1, 0.01) << seconds(frame.time);
             last_ratio = force / expected;
@@ -107,8 +108,8 @@ TEST_P(Felt, AFrictionlessPlaneIsStiffnessTimesDepthAndNothingAcross) {
     Bench bench(scene, hand, setup);
     bench.run([&](const frame::Frame& frame) {
         const frame::FingerFrame& f = frame.fingers[0];
-        // the only drag is the inertia of the proxy's mass of one gram, at the peak acceleration of
-        // a minimum-jerk movement of 0.2 m in 1 s; a point has no mass
+        // the only drag is the inertia of the proxy's mass of 1 g, at the peak acceleration of a
+        // minimum-jerk movement over 0.2 m in 1 s; a point has no mass
         const double drag = point() ? 1e-12 : 1.02 * scene.fingers[0].mass * 5.774 * 0.2;
         EXPECT_LT(f.f_sent_W.head<2>().norm(), drag);
         const double radius = point() ? haptics::kSkin : 0.008;
@@ -118,7 +119,7 @@ TEST_P(Felt, AFrictionlessPlaneIsStiffnessTimesDepthAndNothingAcross) {
     });
 }
 
-/// Expects clean touching, leaving and free motion, at every stiffness and speed.
+/// Expects that touching, leaving and free motion are clean at each of the stiffnesses and speeds.
 void expect_clean_touches(BenchSetup setup, const std::vector<double>& stiffnesses) {
     for (const double k : stiffnesses) {
         for (const double speed : {0.1, 0.3, 0.5}) {
@@ -133,7 +134,7 @@ void expect_clean_touches(BenchSetup setup, const std::vector<double>& stiffness
     EXPECT_EQ(measure_drag(setup), 0);
 }
 
-/// A slow onset lowers the peak of a fast touch, and adds no step and no pull.
+/// A long onset lowers the peak force of a fast touch, without adding a step or a pull.
 TEST_P(Felt, ALongOnsetSoftensATouchAndKeepsItsForce) {
     setup.settings.coupling.onset = 0.1;
     for (const double k : {1000.0, 2000.0}) {
@@ -143,7 +144,7 @@ TEST_P(Felt, ALongOnsetSoftensATouchAndKeepsItsForce) {
         EXPECT_EQ(kick.touch_step_n, 0);
         EXPECT_LE(kick.leave_pull_n, 0.005);
     }
-    EXPECT_TRUE(calm_wall(setup));  // calm at the force of the full stiffness too
+    EXPECT_TRUE(calm_wall(setup));  // the wall is also calm at the force for full stiffness
 }
 
 TEST(FeltByVelocityImpulse, TouchingLeavingFreeMotionAndHoldingAreClean) {
@@ -175,7 +176,7 @@ TEST_P(FeltByAPoint, TouchingLeavingAndFreeMotionAreClean) {
 }
 
 TEST_P(FeltByAPoint, StickingAndSlidingAreCoulombsLaw) {
-    // 6 mm deep at 1000 N/m, static friction 0.5, sliding friction 0.6 of it
+    // 6 mm deep at 1000 N/m, with a static friction of 0.5 and a sliding friction of 0.6 times that
     setup.settings.proxy.sliding_friction = 0.6;
     scene::Scene scene;
     scene::Body plane;
@@ -190,7 +191,7 @@ TEST_P(FeltByAPoint, StickingAndSlidingAreCoulombsLaw) {
     finger.shape = scene::Shape::sphere(0.008);
     scene.fingers = {finger};
     hand::HandSpec hand;
-    hand.impedance.stiffness = 3000;  // so stiff that the hand itself does not stick and slip
+    hand.impedance.stiffness = 3000;  // so stiff that the hand itself causes no stick-slip
     hand.centre = {0, 0, 0.01};
     hand.script = {{"press", 1, {}, {0, 0, -0.018}, false}, {"slide", 2, {}, {0.1, 0, 0}, true}};
     Bench bench(scene, hand, setup);
@@ -209,9 +210,9 @@ TEST_P(FeltByAPoint, StickingAndSlidingAreCoulombsLaw) {
 }
 
 TEST(FrictionApart, ShakesALightBlockLooseAt100HzWhereTogetherHoldsIt) {
-    // With friction apart, two explicit springs hold the block. If the handles stand still, its
-    // tilt diverges when 2 K a^2 h^2 / I > 4, with a half its width and I = m (2 a)^2 / 6: below 45
-    // g at K 600 and h 10 ms. As handles give way, 42 g is still held.
+    // With friction solved apart, two explicit springs hold the block. If the handles stand still,
+    // the block's tilt diverges when 2 K a^2 h^2 / I > 4, where a is half its width and I = m (2
+    // a)^2 / 6: below 45 g at K 600 and h 10 ms. Since the handles give way, 42 g is still held.
     BenchSetup setup;
     setup.settings.proxy.kind = scene::ProxyKind::point;
     setup.settings.coupling.stiffness = 600;

@@ -1,6 +1,6 @@
-// Tests the grasp bench on Inverse3 devices. Messages carry numbers exactly and cost no tick, so
-// the figures are those of the devices behind the service; but a run begins with a message of its
-// own, so that the hand, with its tremor, is a tick ahead.
+// Tests the grasp benchmark with Inverse3 devices. Messages transmit numbers exactly and do not
+// cost a tick, so the figures are those of the devices behind the service. However, a run begins
+// with an additional message, so the hand and its tremor are one tick ahead.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ TEST_P(HaplyGrasp, HasTheFiguresOfTheSimulatedDevices) {
     BenchSetup setup;
     setup.settings.coupling.stiffness = 1000;
     setup.fingering = GetParam();
-    setup.row = Row::premium;  // with encoder steps and friction
+    setup.row = Row::premium;  // with the encoder resolution and friction of the device
     const HoldFigures simulated = measure_hold(setup);
     std::unique_ptr<devices::haply::FakeService> service;
     const HoldFigures haply = measure_hold(through_haply(setup, service));

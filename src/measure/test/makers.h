@@ -1,4 +1,5 @@
-// The benches' plant with a fake of a maker's library between servo and simulated device.
+// The plant of the benchmarks, with a fake of a manufacturer's library between the servo and the
+// simulated devices.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -23,7 +24,8 @@ inline BenchSetup by_maker(BenchSetup setup, const std::string& backend) {
     return setup;
 }
 
-/// Expects values that agree to 1 % or to `nothing`, a thousandth of what can be seen or felt.
+/// Expects that two values agree to 1 % or to within `nothing`, which should be a thousandth of
+/// what can be seen or felt.
 inline void expect_alike(double a, double b, double nothing) {
     EXPECT_NEAR(a, b, std::max(0.01 * std::abs(a), nothing));
 }

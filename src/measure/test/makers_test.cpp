@@ -1,5 +1,5 @@
-// Tests that bench grasp through fakes of the makers' libraries gives the same figures as on the
-// simulated devices themselves.
+// Tests that bench grasp gives the same figures through fakes of the manufacturers' libraries as
+// with the simulated devices themselves.
 #include "measure/test/makers.h"
 
 namespace dihaptic::measure::makers_test {
@@ -10,7 +10,7 @@ class Makers : public ::testing::TestWithParam<std::string> {
     BenchSetup simulated;
     BenchSetup made;
     Makers() {
-        simulated.row = Row::premium;  // the Premium's encoder steps and friction
+        simulated.row = Row::premium;  // the encoder resolution and friction of the Premium
         made = by_maker(simulated, GetParam());
     }
     void set(double k, Fingering fingering) {

@@ -1,6 +1,6 @@
-// Play: the simulated hand pushes, pinches, shakes, tosses and presses at random in a cluttered
-// tray under a lid. The result is judged by independent mechanics: overlaps from the shapes alone,
-// energy from masses, speeds and the forces on the fingers.
+// Simulates play: a hand pushes, pinches, shakes, tosses and presses at random in a cluttered tray
+// under a lid. The result is judged by independent mechanics: overlaps are computed from the shapes
+// alone, and energy from masses, speeds and the forces on the fingers.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,8 @@
 
 namespace dihaptic::measure {
 
-/// A box, ball or capsule, as all points within a radius of a box, a point, or a line along z.
+/// A box, ball or capsule, represented as all points within a radius of a box, a point, or a line
+/// along z.
 struct Rounded {
     Vec3 half = Vec3::Zero();  ///< half extents of the box [m]
     double radius = 0;         ///< [m]
@@ -40,17 +41,18 @@ struct Rounded {
     double reach() const { return half.norm() + radius; }
 };
 
-/// Distance of a point from a box; inside, minus the shortest way out [m].
+/// Distance of a point from a box; if the point is inside, minus the shortest distance to the
+/// surface [m].
 inline double box_distance(const Vec3& half, const Vec3& p) {
     const Vec3 beyond = p.cwiseAbs() - half;
     return beyond.cwiseMax(0).norm() + std::min(0.0, beyond.maxCoeff());
 }
 
-/// Depth of the overlap of two shapes; negative if they are apart [m].
+/// Overlap depth of two shapes; negative if the shapes are apart [m].
 inline double overlap(const Rounded& a, const Pose& X_WA, const Rounded& b, const Pose& X_WB) {
     if (a.radius == 0 && b.radius == 0) return box_overlap(a.half, X_WA, b.half, X_WB);
     if (a.radius == 0) return overlap(b, X_WB, a, X_WA);
-    // a is a line along its z, and its distance to b's core is convex along that line
+    // a is a line along its z axis, and the distance from b's core is convex along that line
     const Pose X_BA = X_WB.inverse() * X_WA;
     const auto distance = [&](double z) { return box_distance(b.half, X_BA * Vec3(0, 0, z)); };
     double low = -a.half.z();
@@ -66,7 +68,7 @@ inline double overlap(const Rounded& a, const Pose& X_WA, const Rounded& b, cons
     return a.radius + b.radius - distance((low + high) / 2);
 }
 
-/// A hand whose script is made while it moves.
+/// A hand whose script is written while it moves.
 class Player final : public hand::Driver {
   public:
     void go_on(std::unique_ptr<hand::ScriptDriver> script, double start) {
@@ -85,30 +87,30 @@ class Player final : public hand::Driver {
     double start_ = 0;
 };
 
-/// What went wrong in a play, and how near it came to going wrong.
+/// What went wrong during play, and how close the simulation came to going wrong.
 struct PlayReport {
     double deepest = 0;  ///< largest overlap of any two bodies [m]
     std::string deepest_pair;
     double deepest_at = 0;        ///< [s]
     double largest_force = 0;     ///< largest force sent [N]
-    double largest_change = 0;    ///< largest change of a force from tick to tick [N]
+    double largest_change = 0;    ///< largest change of a force between ticks [N]
     double fastest = 0;           ///< largest speed of an object [m/s]
-    double hand_work = 0;         ///< most work that the fingers can have done on objects [J]
-    double energy_made = 0;       ///< rise of the objects' energy beyond that, summed [J]
-    double energy_made_once = 0;  ///< largest such rise in one tick [J]
-    uint32_t status = 0;          ///< all status bits that occurred
-    int64_t missed = 0;           ///< ticks in which the solver missed its tolerance
+    double hand_work = 0;         ///< upper limit on the work that the fingers did on objects [J]
+    double energy_made = 0;       ///< total increase in the objects' energy beyond that limit [J]
+    double energy_made_once = 0;  ///< largest increase of this kind in one tick [J]
+    uint32_t status = 0;          ///< all status bits that occurred, combined
+    int64_t missed = 0;           ///< number of ticks in which the solver missed its tolerance
     int64_t fallbacks = 0;
-    int64_t held = 0;    ///< ticks in which only the two fingers pressed an object
-    int64_t flying = 0;  ///< ticks in which an object touched nothing
+    int64_t held = 0;    ///< number of ticks in which only the two fingers pressed an object
+    int64_t flying = 0;  ///< number of ticks in which an object touched nothing
     int64_t ticks = 0;
     int lost = 0;           ///< number of objects that left the tray at any time
-    int64_t generated = 0;  ///< ticks in which the energy guard reported something
+    int64_t generated = 0;  ///< number of ticks in which the energy guard reported something
 };
 
 class Play {
   public:
-    /// The index finger's proxy is a ball, or a point; the thumb's is a box.
+    /// The proxy of the index finger is a ball or a point; that of the thumb is a box.
     Play(const frame::Settings& settings, uint64_t seed,
          scene::ProxyKind index = scene::ProxyKind::rigid)
         : settings_(settings), random_(seed, "play"), has_point_(index == scene::ProxyKind::point) {
@@ -149,7 +151,7 @@ class Play {
     static constexpr size_t kFixed = 7;
     static constexpr double kHalfX = 0.16;  // half width of the tray [m]
     static constexpr double kHalfY = 0.12;  // half depth of the tray [m]
-    static constexpr double kWall = 0.5;    // height of its walls [m]
+    static constexpr double kWall = 0.5;    // height of the tray's walls [m]
 
     static bool in_tray(const Vec3& p) {
         return std::abs(p.x()) < kHalfX && std::abs(p.y()) < kHalfY && p.z() > 0 && p.z() < kWall;
@@ -163,7 +165,7 @@ class Play {
             scene_.bodies.push_back(body);
         };
         fixed("floor", {0.6, 0.5, 0.02}, {0, 0, -0.01});
-        // some tosses rise higher than any wall; with a lid, an object that leaves went through one
+        // some tosses go higher than the walls; with a lid, an object can leave only through one
         fixed("lid", {0.6, 0.5, 0.02}, {0, 0, kWall + 0.01});
         fixed("left wall", {0.01, 0.3, kWall}, {-kHalfX - 0.005, 0, kWall / 2});
         fixed("right wall", {0.01, 0.3, kWall}, {kHalfX + 0.005, 0, kWall / 2});
@@ -179,7 +181,7 @@ class Play {
             } else {
                 body.shape = scene::Shape::box({size(), size(), size()});
             }
-            // apart in any orientation: the largest reaches 39 mm
+            // far enough apart for any orientation: the largest object reaches 39 mm
             body.position = {-0.11 + 0.055 * (i % 5), i < 5 ? -0.06 : 0.07, 0.11 + 0.08 * (i % 2)};
             body.rotation = {pick(-1, 1), pick(-1, 1), pick(-3, 3)};
             body.mass = std::pow(10, pick(-2, -0.7));  // 10 to 200 g
@@ -203,7 +205,7 @@ class Play {
         }
     }
 
-    /// Plans the hand's next action, from where it is.
+    /// Plans the next action of the hand, starting from its current position.
     void plan(double now) {
         hand::HandSpec spec;
         spec.centre = centre_;
@@ -213,7 +215,7 @@ class Play {
         const auto step = [&](const Vec3& to, double duration, double aperture, double turn = 0,
                               const Vec3& end_velocity = Vec3::Zero()) {
             hand::ScriptStep& s = spec.script.emplace_back();
-            // fingers push at walls and floor about as hard as the devices can render
+            // fingers push against walls and floor about as hard as the devices can render
             const Vec3 most(kHalfX - 0.025, kHalfY - 0.025, 0.4);
             const Vec3 least(-most.x(), -most.y(), -0.02);
             const Vec3 goal = to.cwiseMin(most).cwiseMax(least);
@@ -240,14 +242,14 @@ class Play {
                 const Vec3 v(pick(-0.5, 0.5), pick(-0.5, 0.5), pick(0.2, 1.6));
                 step(centre_ + 0.1 * v, 0.2, aperture_, 0, v);
                 step(centre_ + 0.05 * v, 0.12, 0.09);
-            } else if (then < 0.8) {  // swing, and let drop
+            } else if (then < 0.8) {  // swing the object and let it drop
                 step(centre_, pick(0.2, 0.6), aperture_, pick(-1.5, 1.5));
                 step(centre_, pick(0.05, 0.3), 0.09);
             } else {  // slam
                 step({centre_.x(), centre_.y(), 0}, pick(0.08, 0.3), aperture_);
                 step(centre_, 0.1, 0.06);
             }
-        } else if (kind < 0.75) {  // push, into other objects and the walls
+        } else if (kind < 0.75) {  // push sideways into other objects and the walls
             const double angle = pick(-3.1, 3.1);
             const Vec3 way(std::cos(angle), std::sin(angle), 0);
             step({centre_.x(), centre_.y(), 0.08}, 0.15, 0.03);
@@ -257,7 +259,7 @@ class Play {
             step({object.x(), object.y(), 0.1}, pick(0.2, 0.5), pick(0, 0.03));
             step({object.x(), object.y(), pick(-0.02, 0.03)}, pick(0.1, 0.5), aperture_);
             step(centre_ + Vec3(pick(-0.03, 0.03), pick(-0.03, 0.03), 0), 0.3, aperture_);
-        } else {  // anywhere, through everything
+        } else {  // move anywhere, through everything
             for (int i = 0; i < 3; ++i) {
                 step({pick(-kHalfX, kHalfX), pick(-kHalfY, kHalfY), pick(0, 0.15)}, pick(0.15, 0.5),
                      pick(0, 0.09), pick(-1, 1));
@@ -266,7 +268,7 @@ class Play {
         player_.go_on(std::make_unique<hand::ScriptDriver>(spec, kFingers), now);
     }
 
-    /// Position of an object within reach.
+    /// Returns the position of an object within reach.
     Vec3 some_object() {
         for (int i = 0; servo_ && i < 20; ++i) {
             const auto which =
@@ -315,7 +317,7 @@ class Play {
         }
         for (size_t a = 0; a < X_WB.size(); ++a) {
             for (size_t b = std::max(a + 1, kFixed); b < X_WB.size(); ++b) {
-                // a point proxy touches the scene's bodies, not other fingers
+                // a point proxy touches bodies of the scene, but not other fingers
                 if (a >= bodies && has_point_) continue;
                 if ((X_WB[a].p - X_WB[b].p).norm() > shapes_[a].reach() + shapes_[b].reach())
                     continue;
@@ -329,8 +331,8 @@ class Play {
                 out.deepest_pair = name(a) + " and " + name(b);
             }
         }
-        // with J a step's impulse on an object where the finger has the velocity v, objects gain at
-        // most J . v, since the law of contact holds at the end of a step
+        // if J is the impulse of a step on an object, and the finger has velocity v at the contact,
+        // objects gain at most J . v, since the contact law holds at the end of a step
         double work = 0;
         std::vector<char> touched(bodies, 0);
         std::vector<int> fingers_on(bodies, 0);
@@ -364,9 +366,9 @@ class Play {
     Random random_;
     bool has_point_;
     scene::Scene scene_;
-    std::vector<Rounded> shapes_;  // shapes of the bodies, then of the fingers
-    std::vector<Mat3> inertia_;    // by body, in B
-    std::vector<bool> left_;       // by body: it left the tray
+    std::vector<Rounded> shapes_;  // shapes of the bodies, followed by those of the fingers
+    std::vector<Mat3> inertia_;    // one per body, in B
+    std::vector<bool> left_;       // for each body, whether it left the tray
     Vec3 centre_{0, 0, 0.15};
     double aperture_ = 0.09;
     double yaw_ = 0;
@@ -376,8 +378,8 @@ class Play {
     std::optional<double> energy_;
 };
 
-/// Plays for `time` [s] with the energy guard armed, and expects that nothing went wrong and that
-/// the guard reported nothing.
+/// Plays for `time` [s] with the energy guard armed, and expects that nothing goes wrong and that
+/// the guard reports nothing.
 inline PlayReport expect_harmless_play(contact::Solver solver, uint64_t seed, double time,
                                        scene::ProxyKind index = scene::ProxyKind::rigid) {
     frame::Settings settings;

@@ -1,4 +1,4 @@
-// Tests a few seconds of play with every solver; src/measure/soak/play_soak.cpp tests ten minutes.
+// Tests a few seconds of play with each solver; src/measure/soak/play_soak.cpp tests ten minutes.
 #include "measure/test/play.h"
 
 #include "measure/test/bars.h"
@@ -14,7 +14,7 @@ TEST(Overlap, OfShapesWhoseDepthIsKnown) {
     const auto at = [](double x, double y, double z) { return Pose{Quat::Identity(), {x, y, z}}; };
     EXPECT_NEAR(overlap(cube, here, cube, at(0.039, 0, 0.01)), 0.001, 1e-12);
     EXPECT_NEAR(overlap(cube, here, cube, at(0.041, 0, 0.01)), -0.001, 1e-12);
-    // an edge toward a face
+    // one edge points toward a face
     const Pose turned{rotation_xyz({0, 0, 0.7853981633974483}), {0.02 + 0.027, 0, 0}};
     EXPECT_NEAR(overlap(cube, here, cube, turned), 0.02 * std::sqrt(2) - 0.027, 1e-12);
     EXPECT_NEAR(overlap(ball, here, cube, at(0.029, 0.005, 0)), 0.001, 1e-12);
@@ -22,7 +22,7 @@ TEST(Overlap, OfShapesWhoseDepthIsKnown) {
     EXPECT_NEAR(overlap(ball, here, cube, at(corner, corner, corner)), 0.001, 1e-12);
     EXPECT_NEAR(overlap(ball, at(0.019, 0, 0.015), capsule, here), 0.001, 1e-9);
     EXPECT_NEAR(overlap(capsule, at(0.019, 0, 0.01), capsule, here), 0.001, 1e-9);
-    // the capsule's line comes nearest to the cube's edge at its end
+    // the capsule's line is nearest to the cube's edge at the end of the line
     EXPECT_NEAR(overlap(capsule, at(0.026, 0, 0.048), cube, here), 0.01 - std::hypot(0.006, 0.008),
                 1e-9);
 }

@@ -1,4 +1,4 @@
-// Tests soft fingertips, points and spheres, against statics.
+// Tests soft fingertips (points and spheres) against statics.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -28,7 +28,7 @@ TEST_P(SoftFinger, LetsGoAtTheEllipticLimit) {
     EXPECT_LT(measure_soft_turn(setup, 0.8), 1);
     EXPECT_GT(measure_soft_turn(setup, 1.2), 90);
     const double light = torsion_limit(setup);
-    // near slipping under the weight, little torsion can be borne: T / (mu N) is 0.92
+    // close to slipping under the weight, the contacts can bear little torsion: T / (mu N) is 0.92
     setup.mass = 0.52;
     EXPECT_LT(torsion_limit(setup), 0.4 * light);
     EXPECT_NEAR(measure_torsion_limit(setup), 1, 0.05);
@@ -47,7 +47,7 @@ TEST_P(SoftFinger, ATiltedHoldTurnsTheBlockUntilItsContactsAreInLineWithTheForce
     std::array<Vec3, 2> at;
     for (const frame::ContactFrame& c : last.contacts)
         at[static_cast<size_t>(std::max(c.a, c.b) - 2)] = c.p_WC;
-    // each finger carries half the weight; the rest of its force is opposite to the other's
+    // each finger carries half of the weight; the remaining forces of the two fingers are opposite
     const Vec3 squeeze = last.fingers[1].f_contact_W - last.fingers[0].f_contact_W;
     EXPECT_LT(squeeze.normalized().cross((at[1] - at[0]).normalized()).norm(), 0.1 * kDegree);
     if (GetParam() == scene::ProxyKind::point) {
@@ -60,8 +60,8 @@ TEST_P(SoftFinger, ATiltedHoldTurnsTheBlockUntilItsContactsAreInLineWithTheForce
 }
 
 TEST_P(SoftFinger, AnOffCentreHoldStaysLevelOrSwingsDownAsFarAsStaticsSays) {
-    // both fingers are off centre along the face; the moment of the weight is below, then far above
-    // the limit, and fingers that slip while the block swings down stay on the face
+    // both fingers are off centre along the face; the moment of the weight is first below and then
+    // far above the limit, and fingers that slip while the block swings down stay on the face
     struct Case {
         double mass;
         double off;

@@ -7,7 +7,8 @@ namespace {
 
 const std::vector<std::string> kFingers{"thumb", "index"};
 
-/// A short search: one row, around the stiffness at which the ideal plant's margin ends.
+/// Sets up a short search with one row, around the stiffness at which the ideal plant stops being
+/// calm with margin.
 TuneSetup small_search() {
     TuneSetup setup =
         tune_setup(rig::simulated_rig(kFingers), kFingers, frame::Settings{}, hand::Impedance{});
@@ -25,7 +26,7 @@ TEST(Tune, ProposesWhatIsCalmUnderEveryBurdenAndNoMuchStiffer) {
     EXPECT_GT(proposal.k, 1300);
     EXPECT_TRUE(searched.map.front().calm_with_margin());
     EXPECT_NE(settings_block(searched, setup).find("damping_Ns_m: 1\n"), std::string::npos);
-    // the bench agrees, and 1.5 times the stiffness is too much under one of the burdens
+    // the benchmark agrees, and 1.5 times the stiffness is too much under one of the burdens
     int too_much = 0;
     for (const Burden burden :
          {Burden::none, Burden::delay, Burden::light, Burden::loose, Burden::firm}) {

@@ -16,7 +16,8 @@ void add(Trials& trials, int count, AdaptationTrial trial) {
     trials.insert(trials.end(), static_cast<size_t>(count), trial);
 }
 
-/// 64 aligned trials, 160 rotated by 30 degrees, 16 by -30 and 48 error clamps.
+/// 64 aligned trials, 160 trials rotated by 30 degrees, 16 rotated by -30 degrees, and 48 error
+/// clamps.
 Trials rotation_schedule() {
     Trials trials;
     add(trials, 64, {0});
@@ -80,7 +81,7 @@ TEST(TwoRate, RecoversSpontaneouslyTowardWhatWasLearnedFirst) {
     const auto x = compensation(kSmith2006, rotation_schedule());
     EXPECT_LT(x[240], 0);
     EXPECT_GT(*std::max_element(x.begin() + 240, x.end()), 5);
-    // with a single rate there is no spontaneous recovery
+    // a single-rate process shows no spontaneous recovery
     const auto single = compensation(SingleRate{0.99, 0.1}, rotation_schedule());
     for (size_t n = 241; n < single.size(); ++n)
         EXPECT_LE(std::abs(single[n]), std::abs(single[n - 1]));
@@ -90,7 +91,7 @@ TEST(TwoRate, LearnsFasterAgainAfterBeingTurnedBack) {
     Trials trials;
     add(trials, 160, {30});
     const auto first = compensation(kSmith2006, trials);
-    // turned back until the output is near zero, while the slow state still remembers the rotation
+    // trained back until the output is near zero, while the slow state remembers the rotation
     add(trials, 7, {-30});
     const size_t again = trials.size();
     add(trials, 10, {30});
@@ -105,7 +106,7 @@ TEST(TwoRate, ForgetsALittleInACatchTrialAndAllInALongWashout) {
     add(trials, 1, {0});
     add(trials, 1, {30});
     const auto x = compensation(kSmith2006, trials);
-    // a catch trial does not change the output in that trial, but does in the next
+    // a catch trial changes the output in the next trial, but not in the catch trial itself
     EXPECT_GT(x[100], x[99]);
     EXPECT_LT(x[101], x[100]);
     add(trials, 400, {0});

@@ -46,7 +46,7 @@ TEST(MinimumJerk, PassesItsEndsAtTheSpeedsAskedForWithoutAcceleration) {
     for (double t = 0.05; t < T; t += 0.1) {
         EXPECT_NEAR((x(t + h) - x(t - h)) / (2 * h), v(t), 1e-8) << t;
     }
-    // a path of least jerk has no sixth derivative: sixth differences vanish
+    // the sixth derivative of a minimum-jerk path is zero, so sixth differences vanish
     const double d = 0.02;
     for (double t = 3 * d; t < T - 3 * d; t += 0.1) {
         const double sixth = x(t - 3 * d) - 6 * x(t - 2 * d) + 15 * x(t - d) - 20 * x(t) +
@@ -62,15 +62,15 @@ std::vector<double> sine(double frequency, double rate, size_t n) {
     return out;
 }
 
-/// Amplitude of a sine, from the root mean square of its middle half.
+/// Amplitude of a sine wave, from the root mean square of its middle half.
 double amplitude(const std::vector<double>& x) {
     double square = 0;
     for (size_t i = x.size() / 4; i < 3 * x.size() / 4; ++i) square += x[i] * x[i];
     return std::sqrt(2 * square / (static_cast<double>(x.size()) / 2));
 }
 
-/// |H|^2 of a second-order Butterworth filter made by the bilinear transform: the gain of both
-/// passes together at a frequency.
+/// |H|^2 of a second-order Butterworth filter designed by the bilinear transform, i.e. the combined
+/// gain of both passes at a frequency.
 double both_passes(double frequency, double cutoff, double rate, bool high) {
     const double ratio =
         std::tan(std::numbers::pi * frequency / rate) / std::tan(std::numbers::pi * cutoff / rate);
@@ -106,8 +106,8 @@ TEST(Grasp, ClosedForms) {
 
 TEST(Grasp, SafetyMargin) {
     const double g = 9.81;
-    // grip force per digit [N] with a margin of 0.40 on sandpaper, suede and silk (Westling and
-    // Johansson 1984)
+    // grip force per digit [N] with a safety margin of 0.40 on sandpaper, suede and silk (Westling
+    // and Johansson 1984)
     const double friction[] = {1.2, 0.7, 0.35};
     const double hold[][3] = {{1.4, 2.3, 4.7}, {2.7, 4.7, 9.3}, {5.4, 9.3, 18.7}};
     const double mass[] = {0.2, 0.4, 0.8};

@@ -10,7 +10,7 @@ namespace {
 
 const PhantomLinks kLinks{0.215, 0.17};
 
-/// Random joint angles within the limits.
+/// Returns random joint angles within the limits.
 Vec3 some_joints(Random& random) {
     const PhantomLimits& limits = phantom_limits();
     for (;;) {
@@ -22,7 +22,7 @@ Vec3 some_joints(Random& random) {
 
 TEST(PhantomArm, HasItsEndpointAtTheOriginInTheResetPose) {
     EXPECT_EQ(phantom_position(kLinks, Vec3::Zero()), Vec3::Zero());
-    // turret to the right, thigh up, shin toward the person
+    // positive angles move the turret to the right, the thigh up, and the shin toward the person
     EXPECT_GT(phantom_position(kLinks, {0.1, 0, 0}).x(), 0);
     EXPECT_GT(phantom_position(kLinks, {0, 0.1, 0}).y(), 0);
     EXPECT_NEAR(phantom_position(kLinks, {0, 0, 90 * kDegree}).z(), kLinks.shin, 1e-15);
@@ -47,7 +47,7 @@ TEST(PhantomArm, JacobianIsThatOfFiniteDifferences) {
                            phantom_jacobian(kLinks, q - kStep * turning)) /
                           (2 * kStep) * turning;
         EXPECT_LT((phantom_steady_acceleration(kLinks, q, turning) - bent).norm(), 1e-9);
-        // the power of a force on the endpoint equals that of its joint torques
+        // the power of a force at the endpoint equals the power of its joint torques
         const Vec3 f(1, -2, 3), rate(0.3, 0.1, -0.7);
         EXPECT_NEAR((J.transpose() * f).dot(rate), f.dot(J * rate), 1e-15);
     }
@@ -62,7 +62,7 @@ TEST(PhantomArm, FindsTheJointAnglesOfItsEndpoint) {
         EXPECT_TRUE(phantom_reaches(kLinks, p));
     }
     EXPECT_FALSE(phantom_reaches(kLinks, {0, 0, 0.3}));
-    EXPECT_FALSE(phantom_reaches(kLinks, {0, 0.17, -0.2}));  // at the shoulder
+    EXPECT_FALSE(phantom_reaches(kLinks, {0, 0.17, -0.2}));  // too close to the shoulder
     const Vec3 far = phantom_joints(kLinks, {0, 0.17, 1});
     EXPECT_NEAR(phantom_position(kLinks, far).z(), kLinks.shin, 1e-12);  // stretched out
 }

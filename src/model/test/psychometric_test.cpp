@@ -57,7 +57,7 @@ TEST(Psychometric, InverseUndoesIt) {
 TEST(Psychometric, StandardDeviationIsThatOfItsDistribution) {
     for (Psychometric f : kFunctions) {
         f.guess = f.lapse = 0;
-        // integrates the quantile function: the means of x and of x^2
+        // computes the means of x and x^2 by integrating the quantile function
         const int n = 200000;
         double mean = 0, square = 0;
         for (int i = 0; i < n; ++i) {

@@ -7,7 +7,8 @@
 namespace dihaptic::outlets::lsl {
 namespace {
 
-/// The part of liblsl's C interface that we use; its pointers are opaque here too.
+/// The part of liblsl's C interface that this file uses. liblsl's objects are opaque pointers here
+/// too.
 struct Receiving {
     Library file;
     int32_t (*resolve)(void** infos, uint32_t most, const char* property, const char* value,
@@ -29,7 +30,7 @@ struct Receiving {
     }
 };
 
-constexpr int32_t kBuffered = 1;  // older data are of no use [s]
+constexpr int32_t kBuffered = 1;  // only recent data are useful, so liblsl buffers no more [s]
 
 }  // namespace
 
@@ -54,7 +55,7 @@ bool Inlet::find(std::chrono::duration<double> patience) {
         return false;
     const std::unique_ptr<void, void (*)(void*)> info(found, library.destroy_info);
     parts_->channels = library.channel_count(info.get());
-    // without recovery by liblsl: another stream with that name may have other channels
+    // liblsl must not reconnect: another stream with this name may have other channels
     parts_->inlet.reset(library.create_inlet(info.get(), kBuffered, 1, 0));
     if (!parts_->inlet)
         throw Error(fmt::format("liblsl cannot open the stream '{}'", parts_->stream),

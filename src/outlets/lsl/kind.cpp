@@ -10,8 +10,8 @@ namespace dihaptic::outlets::lsl {
 namespace {
 
 struct Options {
-    std::string name = "Dihaptic";  ///< start of the streams' names
-    std::string library;            ///< path of liblsl; empty: found by the system
+    std::string name = "Dihaptic";  ///< prefix of the streams' names
+    std::string library;            ///< path of liblsl; if empty, the system finds it
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -26,7 +26,8 @@ Options read_options(const OutletConfig& config, Diagnostics& diagnostics) {
     return options;
 }
 
-/// The part of liblsl's C interface that we use; its pointers are opaque here too.
+/// The part of liblsl's C interface that this file uses. liblsl's objects are opaque pointers here
+/// too.
 struct Interface {
     Library file;
     void* (*create_streaminfo)(const char* name, const char* type, int32_t channels, double rate,
@@ -57,7 +58,7 @@ struct Interface {
 
 constexpr int kFloat = 1;         // cft_float32
 constexpr int kString = 3;        // cft_string
-constexpr int32_t kBuffer = 360;  // time for which a reader may be absent, liblsl's default [s]
+constexpr int32_t kBuffer = 360;  // how long a reader may be absent; this is liblsl's default [s]
 
 class Lsl final : public Outlet {
   public:
@@ -82,7 +83,7 @@ class Lsl final : public Outlet {
     }
 
   private:
-    /// An object made by liblsl, with the function that destroys it.
+    /// An object created by liblsl, together with the function that destroys it.
     using Made = std::unique_ptr<void, void (*)(void*)>;
 
     double time(Clock::time_point at) const {

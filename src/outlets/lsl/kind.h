@@ -1,5 +1,5 @@
-// The outlet `lsl`: streams of the Lab Streaming Layer with event codes, and with handle positions
-// and forces.
+// The outlet `lsl`: Lab Streaming Layer streams that carry event codes, handle positions and
+// forces.
 #pragma once
 
 #include "outlets/outlet.h"

@@ -5,7 +5,8 @@
 
 namespace dihaptic::outlets::lsl {
 
-/// `path`: the library's file; empty: found by the system. Throws Error for `place`.
+/// `path` is the path of the library's file; if it is empty, the system finds the library. Throws
+/// Error for `place`.
 inline Library load(const std::string& path, const Place& place) {
     return {{"liblsl",
              {"liblsl.so.2", "liblsl.so"},
@@ -19,7 +20,7 @@ inline Library load(const std::string& path, const Place& place) {
 
 constexpr int kTimedOut = -1;  // lsl_timeout_error
 
-/// `error`: the lsl_error_code_t returned by a call.
+/// `error` is an lsl_error_code_t returned by a call.
 inline const char* describe(int32_t error) {
     switch (error) {
         case kTimedOut:

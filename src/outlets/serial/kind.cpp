@@ -36,7 +36,7 @@ speed_t speed_of(int baud) {
 struct Options {
     std::string port;  ///< e.g. /dev/ttyUSB0
     int baud = 115200;
-    double hold = 0;  ///< time after which code 0 follows; 0: never [s]
+    double hold = 0;  ///< time after which code 0 is sent; 0: never [s]
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -70,7 +70,7 @@ Options read_options(const OutletConfig& config, Diagnostics& diagnostics) {
 class Serial final : public Outlet {
   public:
     Serial(const Options& options, const Place& place) : options_(options) {
-        // without waiting for the other side, and without making the line this process's terminal
+        // opening neither waits for the other side nor makes the line this process's terminal
         file_ = Descriptor(open(options.port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
         if (!file_) {
             const int why = errno;
@@ -118,7 +118,7 @@ class Serial final : public Outlet {
         while (true) {
             const ssize_t count = read(file_.get(), received.data(), received.size());
             if (count < 0 && (errno == EAGAIN || errno == EINTR)) break;
-            if (count <= 0) {  // 0: hung up; a line with nothing to read gives EAGAIN
+            if (count <= 0) {  // 0: the line was hung up
                 throw Error(fmt::format("{} cannot be read: {}", options_.port,
                                         count < 0 ? strerror(errno) : "it was unplugged"),
                             "Check the line.");

@@ -1,5 +1,5 @@
-// The outlet `serial`: a serial line with 8-bit codes, as used by amplifiers and trigger boxes. An
-// incoming byte is a trigger.
+// The outlet `serial`: a serial line that carries 8-bit codes, as used by amplifiers and trigger
+// boxes. Every incoming byte is a trigger.
 #pragma once
 
 #include "outlets/outlet.h"

@@ -1,5 +1,5 @@
-// Tests that every kind of outlet keeps the contract of outlet.h: a failure is reported and delays
-// nothing.
+// Tests that every kind of outlet keeps the contract of outlet.h: a failure is reported and does
+// not delay anything.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -46,7 +46,7 @@ TEST_P(Conformance, OneThatCannotBeOpenedIsRefusedWithItsPlaceAndARemedy) {
 TEST_P(Conformance, OneThatFailsIsToldOnceAndHoldsNothingUp) {
     Station station({config()}, kAbout);
     station.send(1, std::array{1.0f});
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // time for it to arrive
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // time for the code to arrive
     fallible->fail();
     const Clock::time_point begin = Clock::now();
     for (int i = 0; i < 100; ++i) station.send(2, std::array{1.0f});

@@ -1,4 +1,4 @@
-// Lets tests make the fake liblsl fail.
+// Lets tests cause failures in the fake liblsl.
 #pragma once
 
 #include <dlfcn.h>
@@ -11,7 +11,7 @@ namespace dihaptic::outlets {
 
 enum class FakeLslFails { nothing, describing, opening, every_push, codes_only };
 
-/// Sets the failures for all streams in this program from now on.
+/// Sets how all streams in this program fail from now on.
 inline void fake_lsl_fails(FakeLslFails what) {
     void* const library = dlopen(DIHAPTIC_FAKE_LSL, RTLD_LAZY | RTLD_LOCAL);
     if (library == nullptr) throw std::runtime_error(dlerror());

@@ -1,4 +1,4 @@
-// For each kind of outlet, an outlet that tests can make and break.
+// Provides, for each kind of outlet, an outlet that tests can create and then cause to fail.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,9 +19,9 @@ class Fallible {
     virtual ~Fallible() = default;
     /// The outlet's options, as in a rig file.
     virtual std::string options() const = 0;
-    /// From now on the outlet cannot be opened.
+    /// After this call, the outlet cannot be opened.
     virtual void never_open() = 0;
-    /// From now on the outlet fails at each call that can fail.
+    /// After this call, the outlet fails in every call that can fail.
     virtual void fail() = 0;
 };
 
@@ -50,7 +50,7 @@ class FallibleLsl final : public Fallible {
     TemporaryFolder folder_;
 };
 
-/// Null for a kind that has no Fallible yet.
+/// Returns null for a kind of outlet that has no Fallible yet.
 inline std::unique_ptr<Fallible> make_fallible(const std::string& kind) {
     if (kind == "serial") return std::make_unique<FallibleSerial>();
     if (kind == "lsl") return std::make_unique<FallibleLsl>();

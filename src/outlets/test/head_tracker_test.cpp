@@ -1,5 +1,5 @@
-// Tests the eye positions from a tracker's samples against cases worked out by hand, and the
-// messages as the stream appears and disappears.
+// Compares the eye positions computed from a tracker's samples with cases worked out by hand, and
+// tests the messages when the stream appears and disappears.
 #include "outlets/head_tracker.h"
 
 #include <gtest/gtest.h>
@@ -23,11 +23,11 @@ constexpr double kRight = std::numbers::pi / 2;
 TEST(HeadPose, IsThatOfTheSample) {
     TrackedHead head;
     head.position = {0, 0, 1};
-    head.rotation = {0, 0, kRight};  // the tracker's x is the world's y
+    head.rotation = {0, 0, kRight};  // the tracker's x axis is the world's y axis
     head.eyes = {0, 0, -0.1};
     head.along = {2, 0, 0};
     head.unit = StreamUnit::mm;
-    const float half = std::sqrt(0.5F);  // a quarter turn about the tracker's z
+    const float half = std::sqrt(0.5F);  // quarter turn about the tracker's z axis
     const std::array<float, 7> sample{100, 0, 500, half, 0, 0, half};
     const auto pose = head_pose(head, sample);
     ASSERT_TRUE(pose);
@@ -55,7 +55,7 @@ TEST(HeadPose, IsNoneOfABodyThatIsNotSeen) {
     EXPECT_TRUE(head_pose(head, std::array<float, 7>{0, 0, 0, 1, 0, 0, 0}));
 }
 
-/// A tracker's stream in the fake liblsl.
+/// Provides a tracker's stream in the fake liblsl.
 class Stream : public ::testing::Test {
   protected:
     Stream() {
@@ -73,7 +73,7 @@ class Stream : public ::testing::Test {
         std::ofstream(file() + ".new") << about << "\n" << sample << "\n";
         std::filesystem::rename(file() + ".new", file());  // so that half a file is never read
     }
-    /// Waits for a condition; returns whether it became true.
+    /// Waits for a condition; returns whether it became true in time.
     static bool comes(const std::function<bool()>& holds) {
         for (int i = 0; i < 1000; ++i) {
             if (holds()) return true;
@@ -110,7 +110,7 @@ TEST_F(Stream, IsWaitedForFollowedAndWaitedForAgain) {
     send("9 9 nan nan nan");
     EXPECT_TRUE(tells(tracker, "does not see the head"));
     EXPECT_TRUE(comes([&] { return !tracker.newest()->seen; }));
-    EXPECT_NEAR(tracker.newest()->eyes.x(), 0.4, 1e-6);  // where it was last
+    EXPECT_NEAR(tracker.newest()->eyes.x(), 0.4, 1e-6);  // last known position
     send("9 9 0.5 0.2 0.3");
     EXPECT_TRUE(tells(tracker, "sees the head again"));
     send("silent");

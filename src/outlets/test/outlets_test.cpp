@@ -54,13 +54,13 @@ TEST(Serial, WhatComesInIsATrigger) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     EXPECT_EQ(code, 5);
-    EXPECT_EQ(station.take_trigger(), 0);  // each trigger comes only once
+    EXPECT_EQ(station.take_trigger(), 0);  // each trigger is returned only once
 }
 
 TEST(Serial, ALineThatIsPulledIsToldThoughNothingIsSentOnIt) {
     auto far = std::make_unique<FarEnd>();
     Station station({config("serial", "{ port: " + far->port + " }")}, {});
-    far.reset();  // no more triggers can come
+    far.reset();  // no further trigger can arrive
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const std::vector<std::string> failures = station.finish();
     ASSERT_EQ(failures.size(), 1u);

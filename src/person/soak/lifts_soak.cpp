@@ -1,4 +1,4 @@
-// Tests the analysis of lifts by people who sometimes grip too weakly, give up or hesitate.
+// Tests the analysis of lifts when people sometimes grip too weakly, give up or hesitate.
 #include <fmt/format.h>
 
 #include <map>
@@ -15,7 +15,7 @@ TEST(Lifts, OfPeopleWhoSlipAndGiveUpAreFoundAndTheRestMarked) {
     int found = 0;
     int others = 0;
     int rows = 0;
-    std::map<std::string, int> marked;  // number of other attempts, by mark
+    std::map<std::string, int> marked;  // number of the other attempts, by outcome and lift
     for (int i = 1; i <= 6; ++i) {
         session::Plan plan = sitting.plan(static_cast<uint64_t>(i));
         Traits traits = draw_person(Objects::real, 5, fmt::format("P{:03d}", i));
@@ -49,7 +49,7 @@ TEST(Lifts, OfPeopleWhoSlipAndGiveUpAreFoundAndTheRestMarked) {
         EXPECT_FALSE(complete && what.find("not lifted") == 0) << what;
     }
     EXPECT_GE(found, 0.95 * lifted);
-    EXPECT_GT(others, 10);  // there were slips and aborted lifts
+    EXPECT_GT(others, 10);  // slips and aborted lifts must have occurred
 }
 
 }  // namespace

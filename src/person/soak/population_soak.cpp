@@ -1,7 +1,7 @@
-// Tests the shipped population on the schedule to which its rates were calibrated,
-// TwoRateProprioception's (64 baseline, 160 at 30 degrees, 16 reversed, 48 clamped), through the
-// whole program: means and standard deviations over people against those of its 32 people.
-// README.md discusses the result.
+// Tests the shipped population in the whole program, on the schedule to which its rates were
+// calibrated: that of TwoRateProprioception (64 baseline trials, 160 at 30 degrees, 16 reversed, 48
+// clamped). Compares means and standard deviations over simulated people with those of the study's
+// 32 people. README.md discusses the result.
 #include <fmt/format.h>
 
 #include <array>
@@ -17,8 +17,8 @@ struct Figure {
     const char* what;
     size_t from;
     size_t to;
-    double mean;  ///< over people [degrees]
-    double sd;    ///< over people [degrees]
+    double mean;  ///< mean over people [degrees]
+    double sd;    ///< standard deviation over people [degrees]
 };
 constexpr std::array kFigures{Figure{"trial 1", 64, 65, 3.5, 4.3},
                               Figure{"trial 7", 70, 71, 17.6, 8.3},
@@ -27,8 +27,8 @@ constexpr std::array kFigures{Figure{"trial 1", 64, 65, 3.5, 4.3},
                               Figure{"end of the reversal", 239, 240, -5.7, 14.2},
                               Figure{"6th clamp trial", 245, 246, 11.5, 7.5},
                               Figure{"last 32 of the clamp", 256, 288, 11.0, 5.6}};
-constexpr double kClose = 3;       // largest difference of means [degrees]
-constexpr double kAsSpread = 0.3;  // largest difference of standard deviations, as a share
+constexpr double kClose = 3;       // largest permitted difference of means [degrees]
+constexpr double kAsSpread = 0.3;  // largest permitted difference of SDs, as a share
 
 double mean(const std::vector<double>& values) {
     double sum = 0;
@@ -42,7 +42,7 @@ double deviation(const std::vector<double>& values) {
     return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-/// The values of trials [from, to), without trials that were given up.
+/// The values of the trials in [from, to), except for trials that were given up.
 std::vector<double> done(const std::vector<double>& hand, size_t from, size_t to) {
     std::vector<double> out;
     for (size_t n = from; n < to; ++n) {
@@ -53,7 +53,7 @@ std::vector<double> done(const std::vector<double>& hand, size_t from, size_t to
 
 struct People {
     std::array<std::vector<double>, kFigures.size()> figures;
-    std::vector<double> baseline_sd;  // over trials of the baseline, by person
+    std::vector<double> baseline_sd;  // for each person, over the baseline trials
     std::vector<analysis::TwoRateFit> fits;
 };
 
@@ -86,7 +86,7 @@ TEST(Population, OfTwoHundredAdaptsAndDiffersAsPeopleDo) {
         EXPECT_NEAR(m, kFigures[f].mean, kClose) << kFigures[f].what;
         EXPECT_NEAR(sd, kFigures[f].sd, kAsSpread * kFigures[f].sd) << kFigures[f].what;
     }
-    // printed, not tested: fits determine parameters poorly in people too
+    // printed but not tested, because fits determine the parameters of people poorly, too
     const auto quartiles = [&](const char* what, auto value, const char* published) {
         std::vector<double> all;
         for (const analysis::TwoRateFit& fit : people.fits) all.push_back(value(fit));

@@ -1,5 +1,5 @@
 // Tests the shipped population on schedules to which nothing was calibrated. README.md describes
-// people's behaviour in them, and the rules that these tests apply.
+// how people behave on these schedules, and the criteria that the tests apply.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ Sample sample(const std::vector<double>& values) {
     return out;
 }
 
-/// Compensation by person, then by trial, under the blocks of a schedule.
+/// The compensation in the blocks of a schedule, for each person and trial.
 std::vector<std::vector<double>> curves(const std::string& blocks) {
     Sitting sitting("rotation-reversal");
     sitting.end_with("  blocks:", "  blocks:\n" + blocks);
@@ -50,7 +50,7 @@ std::string block(const std::string& perturb, int repeats) {
                        repeats);
 }
 
-/// Mean of trials [from, to), without trials that were given up.
+/// The mean over the trials in [from, to), except for trials that were given up.
 double over(const std::vector<double>& curve, size_t from, size_t to) {
     double sum = 0;
     double count = 0;
@@ -90,13 +90,13 @@ TEST(Schedule, OfSeventeenOthers) {
     }
 }
 
-/// How much more slowly the reversal is learned than the rotation was, as a share of the rotation's
-/// mean over people. `initial`: for each person, the mean of the rotation's first 25 trials; filled
-/// if it is empty.
+/// How much more slowly people learned the reversal than the rotation before, as a share of the
+/// mean over people for the rotation. `initial`: the mean of each person's first 25 trials of the
+/// rotation; computed if it is empty.
 Sample interference(int first, std::vector<double>& initial) {
     const auto all = curves(block("", 20) + block("rotation", first) + block("reversal", 80));
     const size_t begin = 20 + static_cast<size_t>(first);
-    // trial where the mean curve crosses the baseline
+    // trial in which the mean curve crosses the baseline
     size_t cross = begin;
     const auto mean = [&](size_t i) {
         double sum = 0;

@@ -1,5 +1,5 @@
-// Tests that simulated people learn force fields as forces: what they press against a channel, how
-// closely this follows the model of adaptation, and that vision and force are not confused.
+// Tests that simulated people learn force fields as forces: how they press against a channel, how
+// closely this follows the adaptation model, and that vision and force are not confused.
 #include <gtest/gtest.h>
 
 #include "analysis/fits/two_rate_fit.h"
@@ -45,14 +45,14 @@ TEST(Forces, OfAPersonWithoutNoisePressAgainstAChannelAsTheTwoRateModelSays) {
     const auto reaches = reaches_of(traits, kSchedule, &yields);
     const auto x = two_rate_index(traits, reaches, yields);
     double most = 0;
-    double before = NAN;  // deviation of the first reach in the field
+    double before = NAN;  // deviation in the first reach in the field
     for (size_t i = 0; i < reaches.size(); ++i) {
         const ForceReach& reach = reaches[i];
         SCOPED_TRACE(number_text(i) + " " + reach.perturbed);
         most = std::max(most, x[i]);
         if (reach.perturbed == "channel") {
             EXPECT_NEAR(reach.index, x[i], 0.04);
-            // the force follows the course of the speed, which it would not do if the hand aimed
+            // the force must follow the time course of the speed, unlike when the hand aims
             // elsewhere
             if (x[i] > 0.3) {
                 EXPECT_GT(reach.likeness, 0.97);
@@ -60,7 +60,7 @@ TEST(Forces, OfAPersonWithoutNoisePressAgainstAChannelAsTheTwoRateModelSays) {
             EXPECT_LT(std::abs(reach.deviation), 3e-3);
         }
         if (reach.perturbed == "curl" && std::isnan(before)) before = reach.deviation;
-        // a catch trial shows an after-effect, to the other side
+        // a catch trial shows an after-effect in the opposite direction
         if (reach.perturbed.empty() && x[i] > 0.3) {
             EXPECT_LT(reach.deviation, -3e-3);
         }
@@ -94,7 +94,7 @@ TEST(Forces, AreLearnedAsForcesAndRotationsAsRotations) {
     EXPECT_NEAR(curl.x(), -kCurl * of_force, 0.05 * kCurl);
     EXPECT_LT(curl.tail<2>().norm(), 0.05 * kCurl);
 
-    // a field along the way is learned along it
+    // people learn a field along the movement as a force along the movement
     const auto [no_turn_either, viscous] = learned("viscous");
     EXPECT_LT(no_turn_either.norm(), 1 * kDegree);
     EXPECT_NEAR(viscous.y(), -kCurl * of_force, 0.1 * kCurl);
@@ -106,8 +106,8 @@ TEST(Forces, AreLearnedAsForcesAndRotationsAsRotations) {
 
     const auto [both_turn, both_force] = learned("turned curl");
     EXPECT_NEAR(both_turn.z(), of_turn, 2 * kDegree);
-    // after learning, the hand moves to the right of the way, so the force that pushes it is turned
-    // as well
+    // after learning, the hand moves to the right of the straight path, so the direction of the
+    // force that pushes it is rotated, too
     EXPECT_NEAR(both_force.norm(), kCurl * of_force, 0.15 * kCurl);
 }
 
@@ -122,7 +122,7 @@ TEST(Forces, GeneraliseByAGaussianOfTheDirection) {
                                     &yields);
     const auto x = two_rate_index(traits, reaches, yields);
     EXPECT_NEAR(reaches[31].index, x[31], 0.04);
-    // the learned push has the same direction in space, so only part of it is across the other way
+    // the learned push keeps its direction in space, so only part of it is across the turned path
     const double angle = kTurnedTarget * kDegree;
     const double share =
         std::exp(-std::pow(angle / traits.force_generalisation, 2) / 2) * std::cos(angle);
@@ -130,7 +130,7 @@ TEST(Forces, GeneraliseByAGaussianOfTheDirection) {
     EXPECT_GT(reaches[30].index, 0.1);
 }
 
-/// A person whose reaches vary; `noise`: SD of their direction [rad].
+/// A person whose reaches vary. `noise`: SD of their direction [rad].
 Traits noisy_person(double noise) {
     Traits out = steady_person();
     out.id = "P01";
@@ -141,7 +141,7 @@ Traits noisy_person(double noise) {
     return out;
 }
 
-/// One trial in eight is a channel; at the end all are.
+/// One trial in eight is a force-channel trial; at the end, all trials are.
 constexpr const char* kLongSchedule = R"(
     - { name: no field, kind: baseline, conditions: [away], repeats: 14, insert: [{ kind: force_channel, perturb: channel, count: 2 }] }
     - { name: curl, kind: perturbed, conditions: [away], perturb: curl, repeats: 140, insert: [{ kind: force_channel, perturb: channel, count: 20 }] }
@@ -150,7 +150,7 @@ constexpr const char* kLongSchedule = R"(
 )";
 
 struct Measured {
-    std::vector<double> index;  ///< NaN except in channels; as if their walls did not yield
+    std::vector<double> index;  ///< NaN except in channels; corrected for the yielding of walls
     std::vector<model::AdaptationTrial> trials;
 };
 
@@ -202,7 +202,7 @@ TEST(Forces, OfANoisyPersonWithOneProcessGiveBackItsRates) {
 TEST(Forces, OfNoLearnerAreNone) {
     Traits traits = noisy_person(1.5 * kDegree);
     traits.force_fast_learning = traits.force_slow_learning = 0;
-    // nor does the hand drift off the start because of what the way back seems to teach
+    // without this, the hand would drift because of what movements back to the start seem to teach
     traits.fast_learning = traits.slow_learning = 0;
     double sum = 0, squares = 0, n = 0;
     for (const double index : measured(traits).index) {

@@ -1,5 +1,5 @@
-// Runs a simulated person's reaches in force fields, with channels between them, and measures from
-// the recorded frames what the hand pressed against the walls.
+// Runs a simulated person's reaches in force fields and in force channels between them, and
+// computes from the recorded frames how the hand pressed against the channel walls.
 #pragma once
 
 #include "base/unit.h"
@@ -7,12 +7,12 @@
 
 namespace dihaptic::person {
 
-inline constexpr double kCurl = 13;          // damping of the field [N*s/m]
-inline constexpr double kChannel = 2000;     // stiffness of the walls [N/m]
-inline constexpr double kTurnedTarget = 45;  // direction of the condition 'turned' [degrees]
+inline constexpr double kCurl = 13;          // damping of the force field [N*s/m]
+inline constexpr double kChannel = 2000;     // stiffness of the channel walls [N/m]
+inline constexpr double kTurnedTarget = 45;  // target direction in the condition 'turned' [degrees]
 
-/// Reaches of 100 mm in the plane, away from the person; in the condition 'turned', 45 degrees
-/// further to the left.
+/// A task with reaches of 100 mm in the horizontal plane, away from the person or, in the condition
+/// 'turned', 45 degrees further to the left.
 inline std::string force_task(const std::string& blocks) {
     return R"(  perturbations:
     - name: curl
@@ -47,16 +47,16 @@ inline std::string force_task(const std::string& blocks) {
 )" + blocks;
 }
 
-/// One reach, measured while its state lasts.
+/// The measures of one reach, taken while its state lasts.
 struct ForceReach {
-    std::string perturbed;  ///< name of the perturbation; empty: none
-    double index = NAN;     ///< regression of the force across the way on b v, through zero
-    double likeness = NAN;  ///< correlation of the two, means not subtracted
-    double deviation = 0;   ///< largest distance from the way, with its sign, to the left [m]
+    std::string perturbed;  ///< name of the perturbation; empty if there is none
+    double index = NAN;     ///< slope of the lateral force against b v, through zero
+    double likeness = NAN;  ///< correlation of the two, without subtracting means
+    double deviation = 0;   ///< largest deviation from the path [m]; positive to the left
 };
 
-/// The reaches of all trials. The way leads from start to target; across it, to the left, the curl
-/// field pushes by b times the speed along the way.
+/// The reaches of all trials. The path leads from the start to the target. The curl field pushes to
+/// the left of the path, by b times the speed along it.
 inline std::vector<ForceReach> force_reaches(const session::Plan& plan) {
     struct Sums {
         double force_ideal = 0, ideal2 = 0, force2 = 0;
@@ -90,14 +90,14 @@ inline std::vector<ForceReach> force_reaches(const session::Plan& plan) {
     return out;
 }
 
-/// Share by which a channel's walls yield to a hand that presses.
+/// The share by which channel walls yield when the hand presses against them.
 inline double yielding(const session::Plan& plan) {
     const double k = plan.hand.impedance.stiffness;
     return k / (k + kChannel);
 }
 
-/// Index in each trial, according to the model of adaptation: in a channel, the error is only the
-/// yielding of its walls.
+/// The index that the adaptation model predicts for each trial. In a channel, the only error is due
+/// to the yielding of the walls.
 template <class Rates, class State>
 std::vector<double> model_index(const Rates& rates, State state, auto&& output,
                                 const std::vector<ForceReach>& reaches, double yields) {

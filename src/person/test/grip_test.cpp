@@ -1,5 +1,5 @@
-// Tests grip and lift of simulated people against figures of Johansson and Westling (1984, 1988)
-// and of later studies.
+// Tests the grip and lift of simulated people against figures by Johansson and Westling (1984,
+// 1988) and from later studies.
 #include "person/grip.h"
 #include "base/number.h"
 
@@ -14,7 +14,7 @@
 namespace dihaptic::person::grip_test {
 namespace {
 
-/// What the fingers feel while they hold an object that weighs 2 N.
+/// What the fingers feel while they hold an object with a weight of 2 N.
 class Held : public ::testing::Test {
   protected:
     Held() : grip_(numb(), {memory()}, kTick) {
@@ -34,7 +34,7 @@ class Held : public ::testing::Test {
             run(kTick);
         }
     }
-    /// A person whose skin does not reveal the friction: only slips do.
+    /// A person whose skin does not sense friction, so that only slips reveal it.
     static Traits numb() {
         Traits out = median_person(Objects::real);
         out.skin_time = 0;
@@ -50,7 +50,7 @@ class Held : public ::testing::Test {
         for (const double end = now_ + duration - kTick / 2; now_ < end; now_ += kTick)
             grip_.tick(now_, felt_, Vec3::UnitX(), aim_);
     }
-    /// Time from now until the squeeze is 1 % larger [s].
+    /// Returns the time until the squeeze has increased by 1 % [s].
     double response() {
         const double before = grip_.squeeze();
         const double begin = now_;
@@ -75,7 +75,7 @@ TEST_F(Held, HasTheMarginOfThePerson) {
 TEST_F(Held, IsGrippedHarderAReflexLatencyAfterALoadStep) {
     felt_.force_W.z() += 1;
     const double latency = response();
-    EXPECT_GE(latency, 0.060);  // Cole and Abbs 1988: 60 to 90 ms
+    EXPECT_GE(latency, 0.060);  // 60 to 90 ms according to Cole and Abbs (1988)
     EXPECT_LE(latency, 0.090);
     run(0.2);
     EXPECT_NEAR(grip_.squeeze(), model::grip_with_margin(3, 0.8, traits_.safety_margin), 0.05);
@@ -114,16 +114,16 @@ struct Lift {
     std::string condition;
     bool done = false;
     double mass = 0;            // [kg]
-    double friction = 0;        // of fingers and object
-    double touch = NAN;         // when both fingers touch [s]
-    double onset = NAN;         // onset of the load force [s]
+    double friction = 0;        // between fingers and object
+    double touch = NAN;         // time when both fingers touch [s]
+    double onset = NAN;         // start of the load force [s]
     double off = NAN;           // lift-off [s]
     double peak_grip = 0;       // [N]
-    double peak_grip_rate = 0;  // until lift-off, over 20 ms [N/s]
-    double peak_load_rate = 0;  // until lift-off, over 20 ms [N/s]
-    double grip = 0;            // static: in the second half of the hold [N]
+    double peak_grip_rate = 0;  // largest before lift-off, over 20 ms [N/s]
+    double peak_load_rate = 0;  // largest before lift-off, over 20 ms [N/s]
+    double grip = 0;            // static grip, in the second half of the hold [N]
     double load = 0;            // in the second half of the hold [N]
-    double coupling = NAN;      // correlation of grip and load force in the load phase
+    double coupling = NAN;      // correlation between grip and load force in the load phase
 };
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
@@ -139,12 +139,12 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
     return ab / std::sqrt(aa * bb);
 }
 
-/// The last attempt at each trial of experiments/grip-and-lift.yaml.
+/// Measures the last attempt of each trial in experiments/grip-and-lift.yaml.
 std::vector<Lift> lifts(const session::Plan& plan) {
     std::vector<Lift> out(plan.task->trials.size());
     int trial = 0;
     int attempt = 0;
-    std::vector<double> grip, load;  // in this attempt, until lift-off
+    std::vector<double> grip, load;  // forces in this attempt, up to lift-off
     double held = 0, sum_grip = 0, sum_load = 0, count = 0;
     constexpr size_t kStep = 20;
     run_trials(plan, [&](const frame::Frame& frame) {
@@ -210,13 +210,12 @@ TEST(Lifts, OfRealObjectsHaveTheFiguresOfPeople) {
         "repeats: 4, perturb: object }\n    - { name: lifts, kind: perturbed, repeats: 4,",
         "repeats: 2, perturb: object }\n    - { name: lifts, kind: perturbed, repeats: 3,");
     session::Plan plan = sitting.plan(3);
-    // studies report means over people; in one person who is drawn any figure may differ
+    // studies report means over people, whereas any figure may differ in a single person drawn
     const Traits traits = median_person(Objects::real);
     sit_down(plan, traits);
     const std::vector<Lift> all = lifts(plan);
     std::vector<double> couplings;
-    std::vector<double>
-        after_lighter;  // peak rates of grip force times friction, to compare surfaces
+    std::vector<double> after_lighter;  // peak rates of grip force times friction
     std::vector<double> after_heavier;
     for (size_t i = 0; i < all.size(); ++i) {
         const Lift& lift = all[i];
@@ -224,13 +223,13 @@ TEST(Lifts, OfRealObjectsHaveTheFiguresOfPeople) {
         ASSERT_TRUE(lift.done);
         couplings.push_back(lift.coupling);
         EXPECT_NEAR(lift.load, 9.81 * lift.mass, 0.03 * lift.load);
-        // margins of 10 to 40 % (1984), 45 % at 200 g; Westling's table at 40 %
+        // published margins are 10 to 40 % (1984) and 45 % at 200 g; Westling's table has 40 %
         const double margin = model::safety_margin(lift.grip, lift.load, lift.friction);
         EXPECT_GT(margin, 0.1);
         EXPECT_LT(margin, 0.5);
-        EXPECT_NEAR(lift.onset - lift.touch, 0.1, 0.05);  // 50 to 150 ms
-        if (i == 0) continue;                             // the weight is not known yet
-        EXPECT_GT(lift.peak_load_rate, 15);               // 15 to 60 N/s
+        EXPECT_NEAR(lift.onset - lift.touch, 0.1, 0.05);  // published: 50 to 150 ms
+        if (i == 0) continue;                             // the weight is still unknown
+        EXPECT_GT(lift.peak_load_rate, 15);               // published: 15 to 60 N/s
         EXPECT_LT(lift.peak_load_rate, 60);
         const double rate = lift.peak_grip_rate * lift.friction;
         const double before = all[i - 1].mass;
@@ -238,23 +237,23 @@ TEST(Lifts, OfRealObjectsHaveTheFiguresOfPeople) {
         if (lift.mass == 0.4 && before > 0.4) after_heavier.push_back(rate);
         const double off = lift.off - lift.onset;
         if (before < lift.mass) {
-            EXPECT_GT(off, 0.25);  // the load force rises in steps until the object comes off
+            EXPECT_GT(off, 0.25);  // the load force increases in steps until lift-off
         } else if (before == lift.mass && i > 1) {
-            EXPECT_GT(off, 0.1);  // 150 to 400 ms, from a load of zero
+            EXPECT_GT(off, 0.1);  // published: 150 to 400 ms, from zero load
             EXPECT_LT(off, 0.65);
             if (lift.friction == all[i - 1].friction) {
-                EXPECT_GT(lift.peak_grip, 1.1 * lift.grip);  // 1.1 to 1.4
+                EXPECT_GT(lift.peak_grip, 1.1 * lift.grip);  // published: 1.1 to 1.4
                 EXPECT_LT(lift.peak_grip, 1.6 * lift.grip);
             }
         } else if (before > lift.mass) {
-            EXPECT_GT(lift.peak_grip, 1.3 * lift.grip);  // grip force overshoots
+            EXPECT_GT(lift.peak_grip, 1.3 * lift.grip);  // the grip force overshoots
         }
     }
     std::sort(couplings.begin(), couplings.end());
     EXPECT_GT(couplings[couplings.size() / 2], 0.9);  // grip and load force rise in parallel
     ASSERT_FALSE(after_lighter.empty());
     ASSERT_FALSE(after_heavier.empty());
-    // the last lift decides what is expected
+    // the previous lift determines the expected weight
     EXPECT_GT(*std::min_element(after_heavier.begin(), after_heavier.end()),
               *std::max_element(after_lighter.begin(), after_lighter.end()));
 }
@@ -269,14 +268,14 @@ TEST(Lifts, WithDirectionalMassAreLearnedByASingleRate) {
     const Traits traits = median_person(Objects::device);
     sit_down(plan, traits);
     const auto& person = static_cast<const Person&>(*plan.seeing);
-    std::vector<double> learned;  // mass along x beyond the weight's, at the end of each trial
+    std::vector<double> learned;  // learned extra mass along x at the end of each trial
     run_trials(plan, [&](const frame::Frame& frame) {
         if (frame.task.outcome >= 0) learned.push_back(person.grip().memory(1).more_mass.x());
     });
     ASSERT_EQ(learned.size(), 15u);
-    const double before = learned[2];  // how far the sense of mass is off
+    const double before = learned[2];  // systematic error in the perceived mass
     EXPECT_NEAR(before, 0, 0.03);
-    const double excess = 0.2;  // mass of three blocks minus that of one [kg]
+    const double excess = 0.2;  // mass of two additional blocks [kg]
     double x = 0;
     for (size_t i = 3; i < learned.size(); ++i) {
         x = next(traits.mass(), x, excess - x);

@@ -1,4 +1,5 @@
-// Tests that a rehearsal warns of demands for which simulated people have no model.
+// Tests that a rehearsal warns if a task demands something for which simulated people have no
+// model.
 #include "person/simulated_limits.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,8 @@
 namespace dihaptic::person::limits_test {
 namespace {
 
-/// Warnings about the shipped rotation experiment with other perturbations, states and blocks.
+/// The warnings for the shipped rotation experiment with different perturbations, states and
+/// blocks.
 std::vector<Problem> limits(const std::string& rest) {
     Sitting sitting("rotation-reversal");
     sitting.end_with("  perturbations:", rest);

@@ -1,4 +1,4 @@
-// Tests eyes, strokes and memories, each by itself.
+// Tests the eyes, strokes and memories of a simulated person separately.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -29,14 +29,14 @@ TEST(Eyes, SeeWhereThingsAreShownAWhileAgo) {
         eyes.take(frame);
         EXPECT_EQ(eyes.sight().trial, std::max(0, i - 100));
     }
-    EXPECT_NEAR(eyes.sight().hand.x(), 2 * 0.4, 1e-12);  // displayed, not true
+    EXPECT_NEAR(eyes.sight().hand.x(), 2 * 0.4, 1e-12);  // the displayed position, not the true one
     EXPECT_TRUE(eyes.sight().hand_shown);
     EXPECT_NEAR(eyes.sight().hand.y(), 1, 1e-12);
     EXPECT_EQ(eyes.sight().shown, 1u << 3);
     EXPECT_EQ(eyes.sight().target[3], Vec3(0, 0, 1));
     frame.task.looks = {{0, 1, -1, 1}};
     for (int i = 0; i <= 100; ++i) eyes.take(frame);
-    EXPECT_TRUE(eyes.sight().hand_shown);  // shown by the other finger
+    EXPECT_TRUE(eyes.sight().hand_shown);  // the other finger is displayed
     frame.task.looks.push_back({1, 1, -1, 1});
     for (int i = 0; i <= 100; ++i) eyes.take(frame);
     EXPECT_FALSE(eyes.sight().hand_shown);
@@ -95,7 +95,7 @@ TEST(RotationMemory, GeneralisesWhatIsSlowByAGaussianOfDirections) {
     EXPECT_NEAR(memory.expected(direction(width)).z(), std::exp(-0.5) * here, 1e-9);
     EXPECT_NEAR(memory.expected(direction(-2 * width)).z(), std::exp(-2.0) * here, 1e-9);
     EXPECT_LT(memory.expected(direction(std::numbers::pi)).z(), 1e-5);
-    // more directions than can be stored: what is learned is not lost
+    // there are more directions than can be stored, but nothing learned must get lost
     for (int n = 0; n < 500; ++n) memory.learn(direction(0.1 * n), Vec3(0, 0, 0.1));
     EXPECT_TRUE(std::isfinite(memory.expected(direction(1)).z()));
     EXPECT_GT(memory.expected(direction(1)).z(), 0);
@@ -109,7 +109,7 @@ TEST(GainMemory, IsTheSingleRateModelForOneDirectionAndOfAnotherOnlyAsFarAsTheyS
     for (int n = 0; n < 60; ++n) {
         EXPECT_NEAR(memory.expected(d), x, 1e-12);
         EXPECT_NEAR(memory.expected(-d), x, 1e-12);
-        const double error = std::log(1.4) - memory.expected(d);  // shown 1.4 times as far
+        const double error = std::log(1.4) - memory.expected(d);  // shown 1.4 times as long
         memory.learn(d, error);
         x = next(rate, x, std::log(1.4) - x);
     }

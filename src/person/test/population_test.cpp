@@ -12,7 +12,7 @@
 namespace dihaptic::person::population_test {
 namespace {
 
-/// A file that is based on the shipped one.
+/// A population file that is based on the shipped population.
 struct File {
     testing::TemporaryFolder folder;
     Population read(const std::string& rest) {
@@ -39,7 +39,7 @@ TEST(Population, ThatIsShippedIsInItsFile) {
     const Population real = read_population("populations/adults-real-objects.yaml");
     EXPECT_EQ(draw_person(real, 1, "sim-001").safety_margin,
               draw_person(Objects::real, 1, "sim-001").safety_margin);
-    // in traits in which the populations do not differ, people are the same
+    // people have the same values of traits in which the two populations do not differ
     EXPECT_EQ(draw_person(real, 1, "sim-001").slow_learning, one.slow_learning);
     for (const TraitSpread& trait : file.traits) EXPECT_NE(trait.source, "") << trait.trait;
 }
@@ -58,7 +58,7 @@ TEST(Population, HasGroupsInTurnThatDifferInWhatTheyName) {
     EXPECT_EQ(patient.population, "Mine");
     EXPECT_EQ(patient.slow_retention, 0.95);
     EXPECT_EQ(median_person(population, "patients").slow_retention, 0.95);
-    // the people who are drawn are the same with groups and without
+    // groups do not change which people are drawn
     EXPECT_EQ(patient.tempo, draw_person(Objects::device, 1, "sim-002").tempo);
     EXPECT_EQ(control.slow_retention, draw_person(Objects::device, 1, "sim-001").slow_retention);
 }

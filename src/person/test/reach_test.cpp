@@ -1,5 +1,5 @@
-// Tests reaches of simulated people through the whole program: seen, planned, made by the simulated
-// hand, and measured from its path.
+// Tests the reaches of simulated people in the whole program: they see and plan reaches, the
+// simulated hand makes them, and its path is measured.
 #include <gtest/gtest.h>
 
 #include "analysis/adaptation.h"
@@ -26,17 +26,17 @@ TEST(Reaches, OfAPersonWithoutNoiseFollowTheTwoRateModelIncludingCatchTrialsAndT
     for (size_t i = 0; i < x.size(); ++i) {
         EXPECT_NEAR(curve.hand[i], x[i], 0.6) << i;
         EXPECT_EQ(curve.outcome[i], "reached") << i;
-        // a catch trial shows what was learned, and nothing else
+        // a catch trial shows what was learned, without any perturbation
         if (plan.task->trials[i].kind == task::TrialKind::catch_trial) {
             EXPECT_GT(curve.hand[i], 5);
             EXPECT_NEAR(curve.shown[i], -curve.hand[i], 0.6);
         }
     }
-    // spontaneous recovery: what was learned first comes back in the clamp
+    // spontaneous recovery: in the clamp, what was learned first returns
     const size_t clamp = 4 + 44 + 8;
     EXPECT_GT(curve.hand[clamp + 12], curve.hand[clamp] + 3);
     EXPECT_GT(curve.hand[clamp + 12], 2);
-    // the washout begins with an after-effect, which goes away
+    // the washout begins with an after-effect, which then decays
     const size_t washout = clamp + 24;
     EXPECT_GT(curve.hand[washout], curve.hand[washout + 7] + 1);
 }
@@ -64,7 +64,7 @@ TEST(Reaches, OverSeveralStatesAreLearnedAsInOne) {
       exits: [{ when: outside, region: shell, to: arrived }, { when: time, after_s: 2, outcome: too slow }]
       simulated_hand: [{ duration_s: 0.7, reach: target }]
 )");
-    // timed: only the message changes on the way
+    // a timed reach has three states, of which the later two change only the message
     const auto three = curve(R"(
     - name: reach
       show: [target]
@@ -85,7 +85,7 @@ TEST(Reaches, OverSeveralStatesAreLearnedAsInOne) {
 
 TEST(Reaches, OfANoisyPersonGiveBackItsRates) {
     session::Plan plan = Sitting("rotation-reversal").plan();
-    // rates that a fit can tell apart, and noise; some people who are drawn learn at one rate only
+    // noise, and rates that a fit can tell apart; some people drawn learn at one rate only
     Traits traits = median_person(Objects::device);
     traits.id = "P01";
     traits.fast_retention = 0.62;
@@ -101,13 +101,13 @@ TEST(Reaches, OfANoisyPersonGiveBackItsRates) {
     const auto trials = schedule(plan);
     const analysis::TwoRateFit fit = analysis::fit_two_rate(curve.hand, trials);
     const std::vector<double> truth = model::compensation(traits.rotation(), trials);
-    double square = 0;  // sum of squared residuals with the true parameters
+    double square = 0;  // sum of squared residuals at the true parameters
     for (size_t i = 0; i < truth.size(); ++i) square += std::pow(curve.hand[i] - truth[i], 2);
     EXPECT_LE(fit.mean_square, square / static_cast<double>(truth.size()));
     double off = 0;
     for (size_t i = 0; i < truth.size(); ++i) off += std::pow(fit.predicted[i] - truth[i], 2);
     off = std::sqrt(off / static_cast<double>(truth.size()));
-    // noise is learned too, so that the true curve is known only to within its own random changes
+    // noise is also learned, so the true curve is known only up to its own random changes
     EXPECT_LT(off, 0.5 * fit.residual_sd);
     EXPECT_NEAR(fit.residual_sd, traits.direction_noise / kDegree, 1.5);
     const auto within = [](double value, const analysis::Interval& interval) {
@@ -127,7 +127,7 @@ TEST(Reaches, AreMendedInPartOnceTheyAreSeenToGoWrong) {
     session::Plan plan = sitting.plan();
     sit_down(plan, median_person(Objects::device));
     const Curve curve = reaches(plan);
-    EXPECT_GT(curve.hand[0], 1);  // people: 3.5 degrees
+    EXPECT_GT(curve.hand[0], 1);  // people have 3.5 degrees
     EXPECT_LT(curve.hand[0], 6);
 }
 
@@ -166,12 +166,12 @@ TEST(Reaches, BeginAReactionTimeAfterTheTargetAndLastAsTheTempoSays) {
         const double now = seconds(frame.time);
         const double way = (frame.fingers[0].p_WH - Vec3(0, -0.04, 0.12)).norm();
         if (shown[i] < 0) shown[i] = now;
-        // minimum jerk covers 1 % of the way in 0.101 of its time, and half of it in 0.5
+        // a minimum-jerk movement covers 1 % of the path in 0.101 of its time, and 50 % in 0.5
         if (begun[i] < 0 && way > 1e-3) begun[i] = now;
         if (over[i] < 0 && way > 50e-3) over[i] = now;
     });
     for (size_t i = 1; i < 4; ++i) {
-        const double lag = 0.01;  // of the handle behind its target
+        const double lag = 0.01;  // time by which the handle lags behind its target [s]
         EXPECT_NEAR(begun[i] - shown[i], traits.reaction_time + 0.101 * 0.8 * 0.7 + lag, 0.01);
         EXPECT_NEAR(over[i] - shown[i], traits.reaction_time + 0.5 * 0.8 * 0.7 + lag, 0.01);
     }
@@ -191,7 +191,7 @@ TEST(Carries, OfAPersonWithoutNoiseFollowTheSingleRateModelAsTheirDisplayIsScale
     options.out = sitting.folder.file("sessions");
     const session::Recorded result = session::record(plan, options, kGoOn);
     const auto curves = analysis::adaptation_curves(rows::TrialFile(result.folder + "/trials.csv"));
-    ASSERT_EQ(curves.size(), 3u);  // along x, y and z
+    ASSERT_EQ(curves.size(), 3u);  // one for each of x, y and z
     const double f = 100 * std::log(1.4);
     for (const analysis::AdaptationCurve& curve : curves) {
         SCOPED_TRACE(curve.round);

@@ -1,5 +1,5 @@
-// Runs a simulated person's reaches in experiments/rotation-reversal.yaml, and measures them from
-// the hand's path.
+// Runs the reaches of a simulated person in experiments/rotation-reversal.yaml, and measures them
+// on the hand's path.
 #pragma once
 
 #include "base/unit.h"
@@ -10,8 +10,8 @@ namespace dihaptic::person {
 inline constexpr double kRotation = 30;  // [degrees]
 
 struct Curve {
-    std::vector<double> hand;   ///< compensation by trial, at the reach's distance [degrees]
-    std::vector<double> shown;  ///< error shown at that distance [degrees]
+    std::vector<double> hand;   ///< compensation by trial, at the reach distance [degrees]
+    std::vector<double> shown;  ///< displayed error by trial, at the same distance [degrees]
     std::vector<std::string> outcome;
 };
 
@@ -19,13 +19,14 @@ inline double angle_about_z(const Vec3& from, const Vec3& to) {
     return std::atan2(from.cross(to).z(), from.head<2>().dot(to.head<2>()));
 }
 
-/// Angles of the first finger about z after "go to the start", in each trial's last attempt.
+/// The angles of the first finger about z after the state "go to the start", in the last attempt of
+/// each trial.
 inline Curve reaches(const session::Plan& plan) {
     const task::ReachMeasure& measure = *plan.task->task.reach;
     const size_t trials = plan.task->trials.size();
     Curve curve{std::vector<double>(trials, NAN), std::vector<double>(trials, NAN),
                 std::vector<std::string>(trials)};
-    std::vector<int> measured(trials, 0);  // attempt that was measured last, by trial
+    std::vector<int> measured(trials, 0);  // last measured attempt of each trial
     run_trials(plan, [&](const frame::Frame& frame) {
         if (frame.trial < 1) return;
         const auto i = static_cast<size_t>(frame.trial - 1);
@@ -44,7 +45,7 @@ inline Curve reaches(const session::Plan& plan) {
     return curve;
 }
 
-/// The plan's schedule in the form that the models of adaptation take.
+/// The plan's schedule in the form that the adaptation models take.
 inline std::vector<model::AdaptationTrial> schedule(const session::Plan& plan) {
     std::vector<model::AdaptationTrial> out;
     for (const task::Trial& trial : plan.task->trials) {

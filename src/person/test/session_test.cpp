@@ -1,5 +1,5 @@
-// Tests a simulated person in a session: recorded, replayed to the bit, allocating nothing,
-// answering questions.
+// Tests a simulated person in a session: the session is recorded, replays exactly and allocates no
+// memory, and the person answers questions.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -71,8 +71,8 @@ TEST(Session, OfTwoPeopleHasBothWithTheirTraitsAndReplaysToTheBit) {
     const Node node = read_yaml(folder + "/person.yaml");
     ASSERT_NE(node.find("partner"), nullptr);
     EXPECT_EQ(node.find("partner")->find("id")->scalar, "S02");
-    // each hand is moved by its own person: with another partner, only the second hand starts
-    // differently
+    // each hand is moved by a person of its own: with another partner, only the start of the second
+    // hand's movement differs
     const auto first_moves = [](const std::string& session) {
         std::array<double, 2> out{-1, -1};
         recording::RawLogReader log(session + "/raw.log");
@@ -164,7 +164,7 @@ TEST(Session, OfShippedGripsGoesOnOnceTheHandIsAway) {
         session::Plan plan = sitting.plan();
         sit_down(plan, median_person(Objects::device));
         const auto phases = plan.task->phases();
-        std::map<int, double> spent;  // time in the last state, by trial [s]
+        std::map<int, double> spent;  // for each trial, time spent in the last state [s]
         run_trials(plan, [&, last = std::string(state)](const frame::Frame& frame) {
             const std::string& phase = phases[static_cast<size_t>(frame.phase)];
             if (phase == last || (phase == "less" && last == "more"))
@@ -200,8 +200,8 @@ TEST(Session, GoesOnWithAPersonWhoGivesUpOrHesitates) {
     EXPECT_GE(done, 6);
 }
 
-/// Answers to "Was it shown larger than it felt?" by keys y and n, after reaches that are shown
-/// scaled.
+/// The answers, with the keys y and n, to "Was it shown larger than it felt?" after reaches that
+/// are displayed scaled.
 std::vector<std::string> answers(double scale, const Traits& traits, int trials) {
     Sitting sitting("rotation-reversal");
     sitting.end_with("  perturbations:", fmt::format(R"(  perturbations:
@@ -270,7 +270,7 @@ TEST(Session, OfAPersonFindsThresholdsOfWhatIsShown) {
         right += said == plan.task->task.procedures[static_cast<size_t>(trial.procedure)].yes;
     });
     ASSERT_EQ(shares.size(), 50u);
-    // staircases begin where scaling is plain to see, and settle where 80 % of answers are right
+    // staircases start where the scaling is obvious, and settle where 80 % of the answers are right
     EXPECT_EQ(shares.front(), 0.8);
     EXPECT_LT(*std::min_element(shares.begin(), shares.end()), 0.5);
     EXPECT_GT(right, 32);

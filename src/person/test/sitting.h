@@ -1,5 +1,5 @@
-// Runs a simulated person in a shipped experiment that a test may change, and gives the test each
-// Frame.
+// Runs a simulated person in a shipped experiment that a test may modify, and passes each Frame to
+// the test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,8 @@ namespace dihaptic::person {
 
 inline const std::atomic<bool> kGoOn{false};
 
-/// The text of a shipped experiment, to be changed and planned; tests run in the project's folder.
+/// The text of a shipped experiment, which tests can modify and turn into a plan. Tests must run in
+/// the project folder.
 struct Sitting {
     testing::TemporaryFolder folder;
     std::string text;
@@ -33,7 +34,7 @@ struct Sitting {
         ASSERT_NE(at, std::string::npos) << what;
         text.replace(at, what.size(), by);
     }
-    /// Replaces everything from `from` on by `by`.
+    /// Replaces everything from the text `from` to the end with `by`.
     void end_with(const std::string& from, const std::string& by) {
         const size_t at = text.find(from);
         ASSERT_NE(at, std::string::npos) << from;
@@ -49,7 +50,7 @@ struct Sitting {
     }
 };
 
-/// Runs the plan's trials as a session does, but records nothing.
+/// Runs the plan's trials in the same way as a session, but without recording anything.
 inline void run_trials(const session::Plan& plan, const frame::FrameSink& sink) {
     const auto servo = session::make_servo(plan);
     servo->activate();

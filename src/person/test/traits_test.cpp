@@ -28,13 +28,13 @@ TEST(Traits, AreWithinTheirBoundsAndAroundTheMedian) {
         std::vector<double> margin;
         for (int i = 0; i < 400; ++i) {
             Traits traits = draw_person(objects, 1, number_text(i));
-            // reading what was written checks every bound
+            // reading the written traits checks every bound
             Diagnostics diagnostics;
             Traits read;
             read_fields(read, write_fields(traits), diagnostics);
             diagnostics.throw_if_errors();
             EXPECT_EQ(read.slow_retention, traits.slow_retention);
-            EXPECT_GT(traits.reflex_latency, 0.06);  // Cole and Abbs 1988
+            EXPECT_GT(traits.reflex_latency, 0.06);  // according to Cole and Abbs (1988)
             EXPECT_LT(traits.reflex_latency, 0.092);
             learning.push_back(traits.slow_learning);
             margin.push_back(traits.safety_margin);
@@ -43,7 +43,7 @@ TEST(Traits, AreWithinTheirBoundsAndAroundTheMedian) {
             std::nth_element(v.begin(), v.begin() + 200, v.end());
             return v[200];
         };
-        // the median of 400 with a spread of 0.52 has a standard error of 3 %
+        // with 400 people and a spread of 0.52, the median has a standard error of 3 %
         EXPECT_NEAR(middle(learning), median.slow_learning, 0.08 * median.slow_learning);
         EXPECT_LT(median.fast_retention, median.slow_retention);
         EXPECT_GT(median.fast_learning, median.slow_learning);

@@ -1,6 +1,6 @@
 // Reads a log that was overwritten in places with nonsense: once as it is, and once with corrected
 // checksums, because a fuzzer would never find nonsense with a correct checksum. The input is a
-// list of edits of five bytes each, or, when it begins with the letter D, a log itself.
+// list of edits of five bytes each or, if it begins with the letter D, a log itself.
 #include "recording/raw_log.h"
 
 #include <algorithm>
@@ -19,7 +19,8 @@ namespace {
 using namespace dihaptic;
 using Bytes = std::vector<uint8_t>;
 
-/// Five short chunks with three bodies and two fingers; one finger's device measures orientation.
+/// Returns a log with five short chunks, three bodies and two fingers, one of which has a device
+/// that measures orientation.
 Bytes written() {
     const TemporaryFolder folder;
     const std::string file = folder.file("raw.log");
@@ -53,14 +54,15 @@ Bytes written() {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The same log with unpacked records, so that nonsense in a frame is found.
+/// Returns the same log with unpacked records, so that edits can change the values in a frame.
 Bytes unpacked(const Bytes& log) {
     const auto chunks = testing::take_apart({log.begin(), log.end()});
     const testing::Bytes out = testing::put_together(chunks);
     return {out.begin(), out.end()};
 }
 
-/// Applies an edit at the position given by its bytes 1 and 2, with its bytes 3 and 4.
+/// Applies an edit at the position given by bytes 1 and 2 of the edit, with its bytes 3 and 4 as
+/// arguments.
 enum class Edit { set_byte, set_word, cut_off, remove, repeat };
 
 void apply(std::span<const uint8_t> edit, Bytes& log) {
@@ -91,7 +93,8 @@ void apply(std::span<const uint8_t> edit, Bytes& log) {
     }
 }
 
-/// Corrects the session of each chunk too, from the first one on, as long as chunks are adjacent.
+/// Corrects the checksums, and also the session of each chunk, from the first chunk on for as long
+/// as chunks are adjacent.
 void make_checksums_right(Bytes& log) {
     using recording::ChunkHeader;
     std::optional<uint64_t> session;
@@ -116,7 +119,7 @@ void read(const Bytes& log) {
         }
         (void)reader.share();
     } catch (const Error&) {
-        // an error with file, line and remedy is the intended outcome
+        // an error with file, line and remedy is the expected result
     }
 }
 

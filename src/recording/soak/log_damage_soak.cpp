@@ -1,4 +1,4 @@
-// Damages logs in thousands of ways: every fault must be reported, and none must cause a crash.
+// Damages logs in thousands of ways. Every fault must be reported, and none may cause a crash.
 #include "recording/test/log_damage.h"
 
 namespace dihaptic::recording {

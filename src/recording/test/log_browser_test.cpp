@@ -1,4 +1,5 @@
-// Tests that a log gives the frame of any moment, as it would have been read from the beginning.
+// Tests that LogBrowser returns the frame for any moment of a log, exactly as if the log had been
+// read from its beginning.
 #include "recording/log_browser.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Damages logs, and reads them: each frame returned must be the session's own, and each fault
-// reported.
+// Damages logs and reads them: every frame returned must belong to the session, and every fault
+// must be reported.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,8 @@ inline LogHead damage_head(const std::string& identity) {
     return out;
 }
 
-/// A frame whose values all show which frame it is, and of which session.
+/// Returns a frame whose values all depend on `sequence` and `session`, so that a misplaced value
+/// is noticed.
 inline frame::Frame damage_frame(int64_t sequence, double session) {
     frame::Frame f;
     f.sequence = sequence;
@@ -38,7 +39,7 @@ inline frame::Frame damage_frame(int64_t sequence, double session) {
     return f;
 }
 
-/// 600 frames, in 12 chunks and the end mark.
+/// Writes a log with 600 frames in 12 chunks, followed by the end mark. Returns its contents.
 inline std::string damage_log(const testing::TemporaryFolder& folder, double session) {
     const std::string file = folder.file("made.log");
     std::filesystem::remove(file);
@@ -48,8 +49,8 @@ inline std::string damage_log(const testing::TemporaryFolder& folder, double ses
     return testing::read_file(file);
 }
 
-/// Reads a log of `session` to its end. Every frame has to be one that was written, later than the
-/// previous one, with every body either where it was or NaN.
+/// Reads a log of `session` to its end. Every frame must be one that was written, and later than
+/// the previous frame; every body must be where it was, or NaN.
 inline LogHealth read_damaged(const std::string& file, double session) {
     RawLogReader reader(file);
     int64_t last = -1;
@@ -81,7 +82,7 @@ inline void expect_mischief_is_told(int cases) {
             const LogHealth health = read_damaged(folder.write("damaged.log", text), 1);
             EXPECT_TRUE(health.damaged(0));
             EXPECT_FALSE(describe(health, 0, 0).empty());
-            // chunks that are still in the log are used, wherever they are
+            // chunks that are still in the log are used, wherever they are stored
             const bool lost = what == static_cast<int>(testing::Mischief::dropped) ||
                               what == static_cast<int>(testing::Mischief::foreign_instead);
             EXPECT_GE(health.frames, lost ? 550 : 600);
@@ -90,8 +91,8 @@ inline void expect_mischief_is_told(int cases) {
     }
 }
 
-/// Random damage, and invented chunks with correct checksums: no crash, no hang, and no frame that
-/// was not written.
+/// Applies random damage and adds invented chunks with correct checksums. The reader must not
+/// crash, hang, or return a frame that was never written.
 inline void expect_mutations_are_borne(int cases, uint64_t first_seed) {
     const testing::TemporaryFolder folder;
     const std::string log = damage_log(folder, 1);
@@ -117,7 +118,7 @@ inline void expect_mutations_are_borne(int cases, uint64_t first_seed) {
         }
         if (::testing::Test::HasFailure()) return;
     }
-    EXPECT_GT(read, cases / 2);  // otherwise most of them only test how the head is read
+    EXPECT_GT(read, cases / 2);  // otherwise, most cases only test how the head is read
 }
 
 }  // namespace dihaptic::recording

@@ -13,7 +13,7 @@ TEST(DamagedLog, NoMutationCrashesItsReaderOrPassesForAFrame) {
     expect_mutations_are_borne(300, 1000);
 }
 
-/// One line of the report.
+/// Returns the first line of the report on a log.
 std::string told(const std::string& log, const testing::TemporaryFolder& folder) {
     const LogHealth health = read_damaged(folder.write("damaged.log", log), 1);
     const auto lines = describe(health, 0, 0);
@@ -97,7 +97,7 @@ TEST(DamagedLog, AHeadWithAbsurdNumbersIsRefused) {
     EXPECT_NE(refused("tick_s: 0.001", "tick_s: 1e-300").find("tick"), std::string::npos);
     EXPECT_NE(refused("tick_s: 0.001", "tick_s: .nan").find("tick"), std::string::npos);
     EXPECT_NE(refused("tick_s: 0.001", "tick_s: 1e300").find("tick"), std::string::npos);
-    // no chunk may claim a size that the file does not have
+    // a chunk must not claim a size larger than the file
     auto chunks = whole;
     auto header = testing::header_of(chunks[0]);
     header.size = 0x7fffffff;
@@ -115,7 +115,7 @@ TEST(DamagedLog, WhatIsMadeToKeepItsReaderBusyEnds) {
     EXPECT_TRUE(reader.read_to_end().damaged(0));
 }
 
-/// A log as programs before version 2 wrote it.
+/// Returns a log as written by programs before version 2.
 std::string old_log(const testing::TemporaryFolder& folder, double session) {
     return testing::as_version_1(testing::take_apart(damage_log(folder, session)));
 }

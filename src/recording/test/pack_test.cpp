@@ -12,7 +12,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-/// Records as an unpacker returns them: each after its length.
+/// Records in the form an unpacker returns: each preceded by its length.
 Bytes listed(const std::vector<Bytes>& records) {
     Bytes out;
     for (const Bytes& record : records) {
@@ -30,7 +30,8 @@ Bytes packed(Packer& packer, const std::vector<Bytes>& records) {
     return {out.begin(), out.end()};
 }
 
-/// Numbers as in a frame: one in four moves slowly, the others rest.
+/// Returns records with numbers as in a frame: one in four changes slowly, the others stay
+/// constant.
 std::vector<Bytes> smooth(size_t records) {
     std::vector<Bytes> out;
     for (size_t r = 0; r < records; ++r) {
@@ -48,7 +49,7 @@ bool is_refused(const Bytes& pack) {
     return !Unpacker().unpack(pack).has_value();
 }
 
-/// A whole zstd frame with invented content.
+/// Returns a complete zstd frame with invented contents.
 Bytes compressed(const std::vector<uint32_t>& words) {
     Bytes out(ZSTD_compressBound(words.size() * sizeof(uint32_t)));
     out.resize(

@@ -1,4 +1,5 @@
-// Tests that every quantity of the Frame is described, and that docs/quantities.md says the same.
+// Tests that every quantity of a Frame is described, and that docs/quantities.md agrees with the
+// descriptions.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ struct List {
     std::vector<Row> rows;
 };
 
-/// All quantities, in the order of the log.
+/// Lists all quantities, in the order of the log.
 class Lists {
   public:
     Lists() {
@@ -37,7 +38,7 @@ class Lists {
     }
     std::vector<List> all{{"tick", "What a tick has once.", {}}};
 
-    // as a visitor
+    // called by Frame::visit() for each field
     template <class T>
     void operator()(const T&, const Term& term) {
         all.back().rows.push_back({term, type_name<T>()});
@@ -114,7 +115,7 @@ std::string tables() {
     return out;
 }
 
-/// The text before the tables is written by hand.
+/// Only the text before the tables is written by hand; the tables must match Frame::visit().
 TEST(Quantities, AreTheReferences) {
     const std::string page = testing::read_file(kFile);
     const std::string made = page.substr(0, page.find("## tick")) + tables();

@@ -112,15 +112,15 @@ TEST(Codec, SchemaNamesEveryFieldWithItsUnit) {
     }
 }
 
-/// The bytes of a frame.
+/// Returns the encoded bytes of a frame.
 std::vector<std::byte> encoded(const frame::Frame& in) {
     std::vector<std::byte> bytes(most_bytes(head().layout(), 8));
     bytes.resize(encode(in, bytes));
     return bytes;
 }
 
-/// The bytes of `in` without a field that differs in `other`: `size` bytes from the first
-/// difference on, removed from each of so many items.
+/// Returns the bytes of `in` without one field, which has a different value in `other`. Removes
+/// `size` bytes, starting at the first difference, from each of the given number of items.
 std::vector<std::byte> without(const frame::Frame& in, const frame::Frame& other, size_t size,
                                size_t items = 1) {
     std::vector<std::byte> bytes = encoded(in);
@@ -135,7 +135,7 @@ std::vector<std::byte> without(const frame::Frame& in, const frame::Frame& other
     return bytes;
 }
 
-/// This program's schema with the given line removed.
+/// Returns this program's schema without the given line.
 std::string schema_without(const std::string& line) {
     std::string out = schema();
     return out.erase(out.find(line), line.size() + 1);
@@ -225,7 +225,7 @@ TEST(Decoder, RefusesWhatIsNoSchemaOfFrames) {
           schema_without("sequence int64 1"), schema() + "colour chars 1\n",
           schema() + "colour int7 1\n", schema() + "colour int8[3 1\n",
           schema() + "colour int8[99999999999999999999] 1\n", "  colour int32 1\n" + schema(),
-          // an item's field outside a list
+          // a field of an item that is not in a list
           schema() +
               "marks uint16 count, then each:\n  size int8 1\nhue int8 1\n  colour int8 1\n"}) {
         EXPECT_THROW(FrameDecoder(text, "raw.log"), Error) << text;
@@ -233,14 +233,14 @@ TEST(Decoder, RefusesWhatIsNoSchemaOfFrames) {
 }
 
 TEST(Decoder, TakesNoMemoryForItemsThatAreNotThere) {
-    std::vector<std::byte> bytes = encoded(frame(3));  // no contacts, so their number comes last
+    std::vector<std::byte> bytes = encoded(frame(3));  // without contacts: their number is last
     bytes[bytes.size() - 1] = bytes[bytes.size() - 2] = std::byte{0xff};
     frame::Frame out;
     EXPECT_FALSE(kDecoder.decode(bytes, head().layout(), out));
     EXPECT_EQ(out.contacts.capacity(), 0u);
 }
 
-/// Reads a log to its end; returns the number of frames, each checked to be the next.
+/// Reads a log to its end, checking that each frame is the next one. Returns the number of frames.
 int64_t count(RawLogReader& reader) {
     int64_t n = 0;
     while (const frame::Frame* f = reader.next()) EXPECT_EQ(f->sequence, n++);
@@ -274,7 +274,7 @@ TEST(DeviceRecord, KeepsWhatTheDeviceWasAndReadsThoseOfEarlierVersions) {
     const DeviceRecord again = read(to_yaml(write_fields(record)));
     EXPECT_EQ(again.finger, "index");
     EXPECT_EQ(static_cast<const frame::DeviceInfo&>(again), record);
-    // as log version 2 stored it
+    // a device as stored by log version 2
     const DeviceRecord old = read(
         "finger: index\nmodel: simulated plant\npeak_force_N: 8.5\norientation: yes\n"
         "peak_torque_Nm: 0\nscale: 2\nsimulated: yes\n");
@@ -285,7 +285,7 @@ TEST(DeviceRecord, KeepsWhatTheDeviceWasAndReadsThoseOfEarlierVersions) {
     EXPECT_EQ(old.scale, 2);
     EXPECT_TRUE(old.simulated);
     EXPECT_TRUE(std::isinf(old.continuous_force));
-    EXPECT_TRUE(std::isinf(old.damping));  // late ticks softened nothing
+    EXPECT_TRUE(std::isinf(old.damping));  // late ticks softened nothing in that version
 }
 
 TEST(RawLog, CutAnywhereItGivesAllWholeChunksBefore) {
@@ -305,7 +305,7 @@ TEST(RawLog, CutAnywhereItGivesAllWholeChunksBefore) {
     EXPECT_GE(last, 250);  // at most a chunk of 50 ms is lost
 }
 
-/// 300 frames in six chunks of 50; body 1 moves only in frames 0 and 120.
+/// Writes 300 frames in six chunks of 50 frames. Body 1 moves only in frames 0 and 120.
 std::string log_of_300(const testing::TemporaryFolder& folder) {
     Recorder recorder(folder.file("raw.log"), head(), Writing::in_place);
     for (int i = 0; i < 300; ++i) {
@@ -359,7 +359,7 @@ TEST(RawLog, GoesOnAfterBytesThatAreNoChunk) {
     const testing::TemporaryFolder folder;
     const std::string whole = log_of_300(folder);
     const size_t second = whole.find("PACK", whole.find("PACK") + 4);
-    // bytes between chunks: some look like a chunk's beginning, and some span the reader's blocks
+    // junk between chunks: some looks like a chunk's beginning, some spans the reader's blocks
     for (const size_t length : {1u, 3u, 5u, 65535u, 65536u, 140000u}) {
         std::string junk(length, 'D');
         if (length > 4) junk.replace(length - 5, 4, "PACK");
@@ -373,7 +373,7 @@ TEST(RawLog, WhatIsNotKnownOfABodyAfterAGapIsNaN) {
     const testing::TemporaryFolder folder;
     RawLogWriter writer(folder.file("raw.log"), head());
     std::vector<std::byte> bytes(most_bytes(head().layout(), 8));
-    for (const int i : {0, 1, 4, 5}) {  // body 1 does not change, but may have done in 2 and 3
+    for (const int i : {0, 1, 4, 5}) {  // body 1 stays here, but may have moved in 2 and 3
         const size_t size = encode(frame(i), bytes);
         writer.add(std::span(bytes).first(size));
     }
@@ -405,7 +405,7 @@ TEST(RawLog, TellsAnUnfinishedChunkFromADamagedOneAndHowMuchItHeld) {
     std::string damaged = whole;
     damaged.resize(damaged.size() - 20);
     damaged[last + 100] ^= 1;
-    damaged[last + 4] = 5;  // its size is wrong too
+    damaged[last + 4] = 5;  // makes the size wrong, too
     RawLogReader reader(folder.write("damaged.log", damaged));
     EXPECT_EQ(count(reader), 250);
     EXPECT_FALSE(reader.health().unfinished);
@@ -475,8 +475,8 @@ TEST(RawLog, NeverOverwritesAnother) {
 
 TEST(RawLog, SaysThatTheDiskIsFull) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
-    // /dev/full exists, so creating it fails; a link to it in a folder stands for a disk that fills
-    // up later
+    // /dev/full exists, so creating it fails; a link to it inside a folder stands for a disk that
+    // fills up later
     const testing::TemporaryFolder folder;
     try {
         RawLogWriter writer("/dev/full", head());
@@ -490,7 +490,7 @@ TEST(Recorder, FlushesEveryFiftyMilliseconds) {
     const testing::TemporaryFolder folder;
     Recorder recorder(folder.file("raw.log"), head(), Writing::in_place);
     for (int i = 0; i <= 500; ++i) recorder.record(frame(i));
-    RawLogReader reader(folder.file("raw.log"));  // while the log is being written
+    RawLogReader reader(folder.file("raw.log"));  // opened while the log is being written
     EXPECT_GE(count(reader), 500 - 50);
 }
 

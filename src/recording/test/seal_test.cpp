@@ -47,7 +47,7 @@ TEST(Seal, FitsWhatWasSealedAndIsKeptBySessionYaml) {
     EXPECT_TRUE(is_sealed(back));
     ASSERT_EQ(back.tables.size(), 3u);
     EXPECT_EQ(back.tables[0].file, "trials.csv");
-    EXPECT_EQ(back.tables[0].rows, 2);  // one of them spans two lines
+    EXPECT_EQ(back.tables[0].rows, 2);  // one row spans two lines
     EXPECT_EQ(back.tables[1].rows, 0);
 }
 
@@ -86,7 +86,7 @@ TEST(Seal, TheRemedyIsOneThatHelps) {
     EXPECT_NE(told.find("Rebuild it from raw.log: dihaptic recover " + session.folder.path()),
               std::string::npos)
         << told;
-    // the log contains nothing that was written before the first tick
+    // the log does not contain what was written before the first tick
     const auto for_good = broken_for_good(session.folder, session.info, Severity::warning);
     ASSERT_EQ(for_good.size(), 1u);
     EXPECT_EQ(for_good[0].text().find("dihaptic recover"), std::string::npos) << for_good[0].text();

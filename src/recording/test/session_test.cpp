@@ -58,7 +58,7 @@ TEST(SessionFolder, KeepsItsInfo) {
     EXPECT_EQ(back.notes, info.notes);
 }
 
-/// A session's folder with an info, and a nearly empty log.
+/// Creates a session's folder with `info` and a nearly empty log.
 SessionFolder small_session(const testing::TemporaryFolder& folder, const SessionInfo& info) {
     const auto session = SessionFolder::create(folder.path(), "x");
     session.write_info(info);

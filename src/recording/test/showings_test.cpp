@@ -25,10 +25,10 @@ TEST(Showings, AChangeWasSeenFromTheFirstPictureOnThatIsOfItsTickOrALaterOne) {
     EXPECT_EQ(showings.onset(0, 0), 0.104);
     EXPECT_EQ(showings.onset(100, 0.1), 0.104);
     EXPECT_EQ(showings.onset(101, 0.101), 0.1225);
-    // the change is gone before the next picture, or in it
+    // the change is undone before or at the next picture
     EXPECT_TRUE(std::isnan(showings.onset(101, 0.101, 110)));
     EXPECT_EQ(showings.onset(101, 0.101, 117), 0.1225);
-    EXPECT_TRUE(std::isnan(showings.onset(117, 0.117)));  // the window was away for seconds
+    EXPECT_TRUE(std::isnan(showings.onset(117, 0.117)));  // the window showed nothing for seconds
     EXPECT_EQ(showings.onset(3000, 3), 3.01);
     EXPECT_TRUE(std::isnan(showings.onset(3001, 3.001)));
 }

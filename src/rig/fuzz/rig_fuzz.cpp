@@ -1,4 +1,4 @@
-// Reads any text as a rig file.
+// Reads arbitrary text as a rig file.
 #include "rig/rig.h"
 
 #include "testing/fuzz.h"
@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     try {
         (void)rig::read_rig(file, diagnostics);
     } catch (const Error&) {
-        // an Error with file, line and remedy is the expected answer to bad input
+        // bad input is expected to cause an Error with file, line and remedy
     }
     return 0;
 }

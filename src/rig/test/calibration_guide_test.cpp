@@ -1,4 +1,4 @@
-// Tests the guide with a person who follows it, on the fake OpenHaptics library.
+// Tests the guide with a simulated person who follows it, using the fake OpenHaptics library.
 #include "rig/calibration_guide.h"
 
 #include <gtest/gtest.h>
@@ -14,9 +14,10 @@ namespace dihaptic::rig::calibration_guide_test {
 namespace {
 
 constexpr double kLink = 0.05;       // length of the link [m]
-constexpr double kTogether = 0.012;  // distance of endpoints held together [m]
+constexpr double kTogether = 0.012;  // distance between endpoints held together [m]
 
-/// Two devices with poses other than those in the rig file, and the person who holds them.
+/// Two devices whose poses differ from those in the rig file, and a simulated person who holds
+/// them.
 struct Person {
     testing::TemporaryFolder folder;
     devices::openhaptics::FakeHd& fake = devices::openhaptics::fake_hd();
@@ -24,13 +25,13 @@ struct Person {
     std::vector<Pose> X_WD;  // true poses
     Guidance now;
     std::vector<std::string> told;
-    int64_t ticks = 0;          // since the start of the step
-    int64_t patience = 60'000;  // ticks of carrying the link
-    double moving = 0;          // displacement of endpoints held together [m]
-    int given_up_at = 0;        // step at which the person cancels; 0: none
-    double felt = 0;            // largest of all forces [N]
+    int64_t ticks = 0;          // number of ticks since the start of the step
+    int64_t patience = 60'000;  // number of ticks for which the link is carried
+    double moving = 0;          // amplitude with which held endpoints move apart [m]
+    int given_up_at = 0;        // step at which the person cancels; 0 if the person never cancels
+    double felt = 0;            // largest force exerted so far [N]
 
-    /// `options`: further options, for each device.
+    /// `options` are further options for each device.
     explicit Person(const std::string& options = "") {
         std::string text = "title: A rig\ndevices:\n";
         for (const int i : {0, 1}) {
@@ -79,7 +80,7 @@ struct Person {
         }
         return {0, 0, 0.02 * side};
     }
-    /// Checks the calibration as a session does, on devices that it makes.
+    /// Checks the calibration in the way a session does, on newly made devices.
     std::vector<Together> hold_together() {
         now = {};
         const auto fingers = held_fingers(rig);
@@ -124,8 +125,8 @@ TEST(CalibrationGuide, LeadsAPersonToACalibration) {
     EXPECT_EQ(person.felt, 0);
 }
 
-/// A reset off the standard configuration distorts the space of a device that reports no joint
-/// angles.
+/// A reset in a pose other than the standard configuration distorts the space of a device that
+/// reports no joint angles.
 TEST(CalibrationGuide, FindsAResetThatWasOffByTheJoints) {
     const double degree = std::numbers::pi / 180;
     for (const bool joints : {true, false}) {
@@ -208,18 +209,18 @@ TEST(Together, TellsWhenADeviceWasMovedSinceTheCalibration) {
     EXPECT_FALSE(can_check_together(person.rig, fingers));
     person.rig.calibrated = calibrate(lead_calibration(person.rig, person.guide())).calibration;
     ASSERT_TRUE(can_check_together(person.rig, fingers));
-    EXPECT_FALSE(can_check_together(person.rig, {"index"}));  // a session of one finger
+    EXPECT_FALSE(can_check_together(person.rig, {"index"}));  // a session with only one finger
     const Together well = person.hold_together().at(0);
     EXPECT_TRUE(well.agrees);
     EXPECT_NEAR(well.apart, kTogether, 1e-5);
     EXPECT_NEAR(well.before, kTogether, 1e-5);
-    // a device was pushed by 4 mm
+    // a device has been pushed 4 mm out of place
     person.X_WD[1].p.x() += 0.004;
     const Together moved = person.hold_together().at(0);
     EXPECT_FALSE(moved.agrees);
     EXPECT_NEAR(moved.apart, kTogether + 0.004, 1e-4);
     EXPECT_NE(moved.warning(person.rig).text().find("Calibrate the rig again"), std::string::npos);
-    // a scale does not separate endpoints held together
+    // a scale does not separate endpoints that are held together
     person.X_WD[1].p.x() -= 0.004;
     for (Device& device : person.rig.devices) device.scale = 3;
     EXPECT_NEAR(person.hold_together().at(0).apart, kTogether, 1e-5);

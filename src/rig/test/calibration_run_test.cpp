@@ -17,7 +17,7 @@ Rig misplaced() {
     return rig;
 }
 
-/// A hand that holds the endpoints together, and moves them about.
+/// A simulated hand that holds the endpoints together and moves them about.
 class TogetherDriver final : public hand::Driver {
   public:
     static Vec3 at(double t) {
@@ -35,7 +35,7 @@ class TogetherDriver final : public hand::Driver {
     std::vector<Phase> phases_;
 };
 
-/// Distance that devices report between endpoints held together by a hand [m].
+/// The distance that devices report between endpoints that a hand holds together [m].
 struct Apart {
     double rms = 0;
     double worst = 0;

@@ -15,10 +15,10 @@ namespace {
 
 const model::PhantomLinks kLinks;
 
-/// Two Premiums with poses and resets that differ from the rig file.
+/// Two Premiums whose poses and resets differ from those in the rig file.
 struct Faulty {
-    std::vector<Pose> X_WD;     // in the rig file
-    std::vector<Pose> true_D;   // the true D in the rig file's
+    std::vector<Pose> X_WD;     // pose of D according to the rig file
+    std::vector<Pose> true_D;   // pose of the true D in the D of the rig file
     std::vector<Vec3> offsets;  // true minus reported joint angles [rad]
     double step = 0.03e-3;
     bool joints = true;
@@ -36,7 +36,7 @@ struct Faulty {
             offsets.push_back(offset);
         }
     }
-    /// A device's report of an endpoint.
+    /// What a device reports when its endpoint is at p_W.
     CalibrationReading report(size_t i, const Vec3& p_W) const {
         const Vec3 q =
             model::phantom_joints(kLinks, true_D[i].inverse() * (X_WD[i].inverse() * p_W)) -
@@ -62,15 +62,15 @@ struct Faulty {
     }
 };
 
-/// A random position in the workspace: a box of 120 x 120 x 120 mm around the endpoints' reset
-/// pose.
+/// A random position in the workspace, a box of 120 x 120 x 120 mm around the position of the
+/// endpoints in the reset pose.
 Vec3 some_place(Random& random) {
     return Vec3(random.uniform(-0.06, 0.06), random.uniform(-0.06, 0.06),
                 random.uniform(0.01, 0.13));
 }
 
-/// Samples of the link of 50 mm, moved about; a fraction `outliers` of them slipped by a few
-/// millimetres.
+/// Adds samples of a link of 50 mm that is moved about. In a fraction `outliers` of them, the link
+/// has slipped by a few millimetres.
 void move_link(const Faulty& rig, double outliers, CalibrationInput& input, Vec3 extent = {1, 1, 1},
                size_t count = 2000) {
     Random random(3, "link");
@@ -88,7 +88,7 @@ void move_link(const Faulty& rig, double outliers, CalibrationInput& input, Vec3
     }
 }
 
-/// Samples of a jig of eight points, each touched ten times by each device.
+/// Adds samples of a jig with eight points, each of which is touched ten times by each device.
 void touch_jig(const Faulty& rig, CalibrationInput& input, double outliers = 0.05) {
     Random random(4, "jig");
     for (int i = 0; i < 8; ++i)
@@ -121,10 +121,10 @@ struct Errors {
 };
 
 struct Judged {
-    Errors agreement;  // distance of two endpoints at the same position
-    Errors truth;      // distance of each endpoint from that position
+    Errors agreement;  // distances between two endpoints at the same position
+    Errors truth;      // distances of each endpoint from that position
 };
-/// The errors over the workspace, at positions that the calibration did not use.
+/// Computes the errors over the workspace, at positions that were not used for the calibration.
 Judged judge(const Faulty& rig, const Calibration* calibration) {
     Random random(99, "judge");
     Judged out;
@@ -146,7 +146,7 @@ Judged judge(const Faulty& rig, const Calibration* calibration) {
     return out;
 }
 
-/// Records errors for --gtest_output=json, in micrometres.
+/// Records the errors in micrometres, for --gtest_output=json.
 void record(uint64_t seed, const Judged& before, const Judged& after, const Calibration& says) {
     const auto um = [&](const char* name, double metres) {
         ::testing::Test::RecordProperty("seed_" + number_text(seed) + "_" + name,
@@ -171,16 +171,17 @@ TEST(Calibration, BringsMisplacedPremiumsTogether) {
         const Judged after = judge(rig, &result.calibration);
         record(seed, before, after, result.calibration);
         EXPECT_GT(before.agreement.rms, 2e-3);
-        // the encoders' steps alone cause 0.02 mm; 0.1 and 0.3 mm are required
+        // the resolution of the encoders alone causes 0.02 mm; the required values are 0.1 and 0.3
+        // mm
         EXPECT_LT(after.agreement.rms, 0.03e-3);
         EXPECT_LT(after.agreement.worst, 0.1e-3);
         EXPECT_LT(after.truth.rms, 0.03e-3);
-        // the calibration states this error
+        // the error stated by the calibration agrees with the true one
         EXPECT_NEAR(result.calibration.agreement_rms / after.agreement.rms, 1, 0.15);
         EXPECT_NEAR(result.calibration.link_length, 0.05, 0.02e-3);
         EXPECT_NEAR(result.calibration.slips, 0.05, 0.02);
         for (size_t i = 0; i < 2; ++i) {
-            // the turret's offset is part of the pose (README.md)
+            // the offset of the turret is part of the pose (README.md)
             const Vec3 off = *result.calibration.devices[i].joint_offset - rig.offsets[i];
             EXPECT_EQ(result.calibration.devices[i].joint_offset->x(), 0);
             EXPECT_LT(off.tail<2>().norm(), 0.02 * kDegree);
@@ -196,7 +197,7 @@ TEST(Calibration, WithoutAJigBringsThemTogetherStill) {
     const Judged after = judge(rig, &calibration);
     EXPECT_LT(after.agreement.rms, 0.05e-3);
     EXPECT_LT(after.agreement.worst, 0.2e-3);
-    // quantities that only a jig determines stay as in the rig file, for both devices together
+    // quantities that only a jig can determine stay as in the rig file, for both devices together
     EXPECT_GT(after.truth.rms, 0.2e-3);
     EXPECT_LT(after.truth.rms, 10e-3);
     EXPECT_FALSE(calibration.jig_rms);
@@ -212,9 +213,9 @@ TEST(Calibration, WithoutJointAnglesSaysWhatRemains) {
         const Calibration calibration = calibrate(input).calibration;
         const Judged after = judge(rig, &calibration);
         record(seed, judge(rig, nullptr), after, calibration);
-        // ten times worse than with joint angles, and the stated error is not smaller than the true
-        // one. It is larger when both devices have the same error at one position, but not at the
-        // link's two ends
+        // ten times worse than with joint angles. The stated error is not smaller than the true
+        // error; it is larger if both devices have the same error at one position, but not at the
+        // two ends of the link
         EXPECT_GT(after.agreement.rms, 0.2e-3);
         EXPECT_GT(calibration.agreement_rms, 0.9 * after.agreement.rms);
         EXPECT_LT(calibration.agreement_rms, 2.2 * after.agreement.rms);
@@ -235,7 +236,7 @@ TEST(Calibration, FindsThreeDevicesJoinedToTheFirst) {
     CalibrationInput other;
     move_link(rig, 0.02, other);
     for (CalibrationInput::LinkSample sample : other.link_samples) {
-        // puts the link's other end on the third device
+        // moves the other end of the link to the third device
         const Vec3 p =
             rig.X_WD[1] *
             (rig.true_D[1] * model::phantom_position(kLinks, sample.at_b.joints + rig.offsets[1]));
@@ -337,7 +338,7 @@ TEST(Calibration, CountsDays) {
     EXPECT_FALSE(days_between("yesterday", "2026-11-20"));
 }
 
-/// The arm is far from the position in its driver.
+/// The arm is far from the position that its driver assumes.
 TEST(Correction, SlopeIsThatOfItsPositions) {
     Random random(8, "slope");
     for (const bool joints : {true, false}) {

@@ -12,7 +12,7 @@ namespace {
 using std::chrono::milliseconds;
 const model::PhantomLinks kLinks;
 
-/// An arm that moves by itself and stores the wrench sent to it.
+/// An arm that moves by itself and stores the wrenches that are sent to it.
 class MovingArm final : public devices::DeviceGroup {
   public:
     static Vec3 joints(double t) {
@@ -71,7 +71,8 @@ TEST(CorrectedDevices, VelocityIsThatOfThePositionAndPowerThatOfTheHand) {
         group->read(t, now);
         const Vec3 slope = (after[0].p_DH - before[0].p_DH) / (2 * seconds(step));
         EXPECT_LT((now[0].v_DH - slope).norm(), 1e-6);
-        // the world's force is 3 times the hand's, and so is its speed: power is 9 times the hand's
+        // force and speed are 3 times as large in the world as at the hand, so power is 9 times as
+        // large
         const Vec3 f(1, -2, 0.5);
         group->write(std::vector<Wrench>{{f, Vec3::Zero()}});
         EXPECT_NEAR(told.force.dot(raw[0].v_DH), f.dot(now[0].v_DH) / 9, 1e-12);
@@ -97,7 +98,7 @@ TEST(CorrectedDevices, NoStretchMakesAForceLargerThanTheDevicesLimit) {
         const auto group = make_corrected(std::make_unique<MovingArm>(told), {stretched});
         group->activate();
         std::vector<devices::Reading> readings(1);
-        const double peak = group->info(0).peak_force;  // in the world's units
+        const double peak = group->info(0).peak_force;  // in world units
         for (const double limit : {1e3, 8.0 * scale, 2.0 * scale}) {
             group->limit(0, limit, 0);
             const double most = std::min(limit, peak);
@@ -110,7 +111,7 @@ TEST(CorrectedDevices, NoStretchMakesAForceLargerThanTheDevicesLimit) {
                 EXPECT_LE(told.force.norm(), most / scale * (1 + 1e-9));
             }
             EXPECT_NEAR(largest, most / scale, 1e-9);
-            // a force far below the limit is stretched
+            // a force far below the limit is changed by the stretch
             group->write(std::vector<Wrench>{{0.1 * Vec3::UnitX(), Vec3::Zero()}});
             EXPECT_NEAR(told.force.norm(), 0.15 / scale, 1e-12);
         }

@@ -1,5 +1,5 @@
-// Tests displays and their registration: mistakes in rig files, and the accuracy with which a
-// finger finds a screen.
+// Tests displays and their registration: mistakes in rig files, and how accurately a screen is
+// located by touching it.
 #include "display/display.h"
 #include "base/number.h"
 
@@ -97,7 +97,7 @@ display::Display example() {
     return read(folder, kRig, diagnostics).displays.at(0);
 }
 
-/// The display turned by 2 degrees about some axis through its middle, and moved by 5 mm.
+/// The display rotated by 2 degrees about a random axis through its middle, and moved by 5 mm.
 display::Display misplaced(const display::Display& display, Random& random) {
     const auto unit = [&] {
         return Vec3(random.normal(), random.normal(), random.normal()).normalized();
@@ -150,12 +150,12 @@ TEST(Registration, FindsAMisplacedScreenByANoisyFinger) {
         if (away < 0.2e-3 && tilted < 0.1 * kDegree) ++within;
         off += away * away / kScreens;
         turned += tilted * tilted / kScreens;
-        // three axes of 0.3 mm, less the fit's degrees of freedom
+        // noise of 0.3 mm along three axes, less the degrees of freedom of the fit
         EXPECT_NEAR(found.registration.rms, 0.5e-3, 0.15e-3) << seed;
     }
     RecordProperty("off_mm", number_text(1e3 * std::sqrt(off)));
     RecordProperty("turned_deg", number_text(std::sqrt(turned) / kDegree));
-    // 0.3 mm over the root of 20 touches, times the root of three axes
+    // 0.3 mm divided by the square root of 20 touches, times the square root of three axes
     EXPECT_NEAR(std::sqrt(off), 0.116e-3, 0.04e-3);
     EXPECT_LT(std::sqrt(turned), 0.06 * kDegree);
     EXPECT_GE(within, 18);

@@ -1,4 +1,4 @@
-// Tests the libraries that a rig may load.
+// Tests which libraries a rig may load.
 #include "rig/libraries.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace dihaptic::rig::libraries_test {
 namespace {
 
-/// A rig of real devices, with an outlet and a tracked head, each of which names a library.
+/// A rig of real devices with an outlet and a tracked head, each of which names a library.
 class Libraries : public ::testing::Test {
   protected:
     testing::TemporaryFolder folder_;

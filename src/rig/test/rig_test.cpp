@@ -28,7 +28,7 @@ TEST(RigFile, PlacesDevices) {
     ASSERT_FALSE(diagnostics.has_errors());
     const auto X_WD = poses(rig, {"index", "thumb"});
     EXPECT_LT((X_WD[0] * Vec3(0, 1, 0) - Vec3(0.01, 0, 1)).norm(),
-              1e-15);  // a Premium's up is the world's
+              1e-15);  // up is the same direction for a Premium as in the world
     EXPECT_LT((X_WD[1] * Vec3(0, 1, 0) - Vec3(0, 1, 0)).norm(), 1e-15);
 }
 
@@ -47,7 +47,7 @@ TEST(RigFile, OriginPutsTheWorldIntoItsFrame) {
     EXPECT_EQ(rig.jig[0].position, Vec3(0, -0.02, 0.03));
     EXPECT_EQ(wall_box(rig)->center(), Vec3(0, 0, 0.06));
     EXPECT_EQ(rig.moved_by, Vec3(0, 0.02, -0.03));
-    // the rig file in a session gives the same world
+    // the rig file that a session stores gives the same world
     const Rig again = read_rig(folder.write("again.yaml", to_yaml(write_fields(rig))), diagnostics);
     EXPECT_EQ(again.devices[0].position, rig.devices[0].position);
     EXPECT_EQ(wall_box(again)->sizes(), Vec3(0.2, 0.16, 0.12));
@@ -67,7 +67,7 @@ TEST(RigFile, PlacesAHeadset) {
     EXPECT_EQ(rig.headset->space, display::HeadsetSpace::local);
     const Pose X_WS = rig.headset->X_WS();
     EXPECT_EQ(X_WS.p, Vec3(0.01, 0, 0.03));
-    // turned left by 90 degrees: forward is -x, up is +z
+    // turned left by 90 degrees, so that forward is -x and up is +z
     EXPECT_LT((X_WS.R * Vec3(0, 0, -1) - Vec3(-1, 0, 0)).norm(), 1e-15);
     EXPECT_LT((X_WS.R * Vec3(0, 1, 0) - Vec3(0, 0, 1)).norm(), 1e-15);
     EXPECT_FALSE(read_rig(folder.write("none.yaml", devices), diagnostics).headset);
@@ -119,7 +119,7 @@ constexpr const char* kPart =
     "[0, 0, "
     "90]}\n";
 
-/// A rig of one device with a calibration.
+/// A rig with one device and a calibration.
 Rig calibrated(const testing::TemporaryFolder& folder, const std::string& calibration,
                const std::string& options, Diagnostics& diagnostics) {
     folder.write("calibration.yaml", calibration);

@@ -25,7 +25,7 @@ Rig boxes(const std::vector<Vec3>& places, const std::string& edges) {
     return rig;
 }
 
-/// A rig of `count` Premiums with arms, around one point.
+/// A rig of `count` Premiums with arms, arranged around one point.
 Rig premiums(int count) {
     Rig rig;
     for (int i = 0; i < count; ++i) {
@@ -84,8 +84,9 @@ TEST_P(Premiums, ShareWhatAMonteCarloEstimateSays) {
     const Rig rig = premiums(GetParam());
     const auto all = reaches(rig);
     const auto found = find_workspace(all, kGoOn);
-    // an estimate independent of the code above: joint angles are drawn so that points are uniform
-    // in the first device's reach (by |det J|), and the other devices are tested at these points
+    // an estimate that does not use the code under test: joint angles are drawn in such a way that
+    // points are uniformly distributed in the first device's reach (by |det J|), and each point is
+    // then tested for the other devices
     Random random(7, "monte carlo");
     const model::PhantomLinks links;
     const model::PhantomLimits& limits = model::phantom_limits();
@@ -111,7 +112,7 @@ TEST_P(Premiums, ShareWhatAMonteCarloEstimateSays) {
     EXPECT_NEAR(found.shared / estimate, 1, 0.02) << estimate * 1e3 << " litres";
     EXPECT_GT(estimate, 1e-4);
 
-    // points in the largest box and sphere are within every reach
+    // all points in the largest box and in the largest sphere are within every reach
     for (int n = 0; n < 5000; ++n) {
         const Vec3 d = Vec3(random.normal(), random.normal(), random.normal()).normalized();
         Vec3 inside;

@@ -1,4 +1,4 @@
-// Tests that reading a session's tables gives the rows from which they were written.
+// Tests that reading a session's table gives the same rows that were written.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace dihaptic::rows::rows_test {
 namespace {
 
-/// Gives each member that a row lists a value of its own.
+/// Gives each member that a row lists a different value.
 class Filler {
   public:
     template <class T>
@@ -61,7 +61,7 @@ TYPED_TEST(RowTest, IsReadAsItWasWritten) {
             if (number == nullptr || std::isnan(*number)) {
                 EXPECT_EQ(to_csv(a), to_csv(b)) << written.columns[i].name;
             } else {
-                constexpr double kDigits = 1e-8;  // tables contain nine digits
+                constexpr double kDigits = 1e-8;  // numbers in tables have nine digits
                 EXPECT_NEAR(*number, std::get<double>(b), kDigits * std::abs(*number))
                     << written.columns[i].name;
             }
@@ -78,7 +78,7 @@ TEST(RowFile, LeavesOutWhatAnEarlierVersionDidNotWrite) {
     EXPECT_TRUE(std::isnan(trials[0].asked.share));
     EXPECT_EQ(trials[0].asked.kind, TrialKind::baseline);
     EXPECT_TRUE(std::isnan(trials[1].measures.hand_angle_deg));
-    EXPECT_EQ(trials[1].asked.trial, 0);  // the cell is not a number
+    EXPECT_EQ(trials[1].asked.trial, 0);  // the cell does not contain a number
     EXPECT_EQ(trials[1].asked.share, 0.5);
 }
 
@@ -98,7 +98,7 @@ TEST(RowFile, KeepsFurtherColumns) {
     ASSERT_TRUE(squeeze);
     EXPECT_EQ(trials.number(0, squeeze), 2.5);
     EXPECT_TRUE(std::isnan(trials.number(1, squeeze)));
-    EXPECT_EQ(trials.text(2, squeeze), "");  // a line that was cut off
+    EXPECT_EQ(trials.text(2, squeeze), "");  // the line was cut off before this cell
     EXPECT_FALSE(trials.column("squeeze_mN"));
     EXPECT_TRUE(std::isnan(trials.number(0, trials.column("squeeze_mN"))));
 }

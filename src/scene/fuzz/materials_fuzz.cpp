@@ -1,4 +1,4 @@
-// Reads any text as an OBJ mesh that names its materials, and as the materials' file.
+// Reads arbitrary text as an OBJ mesh that names a materials file, and also as that materials file.
 #include "scene/materials.h"
 
 #include <string_view>

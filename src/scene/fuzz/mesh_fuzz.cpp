@@ -1,5 +1,5 @@
-// Reads any file as a mesh, in a format chosen by its first bytes; mainly tests the handling
-// of answers from dihaptic-mesh.
+// Reads an arbitrary file as a mesh, in a format that is chosen by its first bytes. This mainly
+// tests how answers from dihaptic-mesh are handled.
 #include "scene/mesh.h"
 
 #include <string_view>
@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     try {
         (void)scene::read_mesh(testing::as_file({data, size}, "mesh." + ending), 1e-3, {});
     } catch (const Error&) {
-        // reported with file, line and remedy, as intended
+        // the fault is reported with file, line and remedy, as intended
     }
     return 0;
 }

@@ -1,4 +1,4 @@
-// Reads any file as a scene, and moves bodies in its text.
+// Reads an arbitrary file as a scene, and moves bodies in its text.
 #include "scene/body_text.h"
 #include "scene/scene.h"
 
@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         for (const scene::Body& body : scene::read_scene(file, diagnostics).bodies)
             (void)scene::moved_body(text, body.name, {0.01, 0, -0.02}, 0.5);
     } catch (const Error&) {
-        // reported with file, line and remedy, as intended
+        // the mistake is reported with file, line and remedy, as intended
     }
     return 0;
 }

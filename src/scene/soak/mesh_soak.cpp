@@ -1,5 +1,5 @@
-// Reads ten thousand damaged meshes: the program survives each one and gives a reason for each
-// refusal.
+// Reads ten thousand damaged meshes. The program must survive each of them, and give a reason for
+// each refusal.
 #include <thread>
 
 #include "scene/test/mutated_mesh.h"

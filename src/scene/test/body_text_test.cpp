@@ -1,4 +1,4 @@
-// Tests how the text of a scene is changed when a body of it is moved.
+// Tests how the text of a scene is changed when one of its bodies is moved.
 #include "scene/body_text.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ std::string moved(const std::string& text, const std::string& name, const Vec3& 
     return changed(text, moved_body(text, name, way_mm * 1e-3, turn));
 }
 
-/// The message that explains why a body cannot be moved.
+/// The error message that explains why a body cannot be moved.
 std::string refusal(const std::string& text, const std::string& name) {
     try {
         moved_body(text, name, {0.001, 0, 0});
@@ -35,7 +35,7 @@ Scene scene_of(const std::string& text) {
     return out;
 }
 
-/// The content of the scene's text, except for the position of one body.
+/// The content of the scene without the position of one body, as text.
 std::string others(Scene scene, const std::string& name) {
     for (Body& body : scene.bodies) {
         if (body.name == name) body.position.setZero();
@@ -43,7 +43,7 @@ std::string others(Scene scene, const std::string& name) {
     return to_yaml(write_fields(scene));
 }
 
-/// The characters of a text other than those of numbers.
+/// The characters of a text that are not part of a number.
 std::string without_numbers(std::string text) {
     std::erase_if(text, [](char c) {
         return std::string_view("0123456789.-").find(c) != std::string_view::npos;
@@ -66,12 +66,13 @@ TEST(BodyText, EveryBodyOfEveryShippedSceneMovesAndNothingElseChanges) {
             const Vec3 wanted = body.position + Vec3(0.0123, -0.007, 0.0401);
             EXPECT_LT((position - wanted).cwiseAbs().maxCoeff(), 0.5e-4 + 1e-12);
             EXPECT_EQ(others(after, body.name), others(before, body.name));
-            // and back again: everything that is not the body's own is as it was, to the byte
+            // moves the body back again; everything outside the body must then be as before, byte
+            // for byte
             if (text.size() < after_text.size() + 60 &&
                 without_numbers(text) == without_numbers(after_text)) {
                 EXPECT_EQ(moved(after_text, body.name, {-12.3, 7, -40.1}), text);
             } else {
-                ++added;  // the body had no position
+                ++added;  // the body had no position before
             }
             ++count;
         }

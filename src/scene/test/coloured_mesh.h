@@ -1,4 +1,4 @@
-// Meshes with colours of their own, for tests.
+// Meshes that have their own colours, for use in tests.
 #pragma once
 
 #include <fmt/format.h>
@@ -7,7 +7,7 @@
 
 namespace dihaptic::scene {
 
-/// A tetrahedron with an edge of 20 mm along each axis, whose vertices have a colour.
+/// A tetrahedron with an edge of 20 mm along each axis and a colour at each vertex.
 inline std::string tetrahedron_ply() {
     return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
            "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
@@ -16,7 +16,7 @@ inline std::string tetrahedron_ply() {
            "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 }
 
-/// The same tetrahedron, with colours as an OFF file contains them.
+/// The same tetrahedron as an OFF file, with colours in the form that this format uses.
 inline std::string tetrahedron_off(bool whole) {
     const char* const colours[] = {
         whole ? "255 0 0 255" : "1.0 0 0 1.0", whole ? "0 255 0 255" : "0 1.0 0 1.0",
@@ -27,8 +27,8 @@ inline std::string tetrahedron_off(bool whole) {
         colours[0], colours[1], colours[2], colours[3]);
 }
 
-/// The same tetrahedron as OBJ, with two materials: one for the faces with the vertex at z = 20,
-/// and one for the face without it.
+/// The same tetrahedron as an OBJ file with two materials: one for the faces that contain the
+/// vertex at z = 20, and one for the remaining face.
 inline std::string tetrahedron_obj(const std::string& library) {
     return library +
            "v 0 0 0\nv 20 0 0\nv 0 20 0\nv 0 0 20\nusemtl old oak\nf 1 3 2\nusemtl steel\n"

@@ -1,4 +1,4 @@
-// Tests of concave meshes and compounds: their weight, and their convex pieces, cut and stored.
+// Tests concave meshes and compounds: their weight, and how their convex pieces are cut and stored.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An L of two boxes, 2 x 1 x 1 and 1 x 1 x 1, the second on top of the first along y.
+/// An L-shaped mesh of two boxes, 2 x 1 x 1 and 1 x 1 x 1. The second is on top of the first along
+/// y.
 constexpr const char* kL =
     "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n"
     "v 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1\n"
@@ -50,7 +51,7 @@ struct Files {
         for (const Problem& problem : diagnostics.problems()) out += problem.text() + "\n";
         return out;
     }
-    /// The file of pieces that was written last; "" if there is none.
+    /// The file of pieces that was written most recently; "" if there is none.
     std::string kept() const {
         std::error_code none;
         fs::path out;
@@ -61,7 +62,8 @@ struct Files {
     }
 };
 
-/// Calculated by hand from the two boxes and the parallel axis theorem, in cm.
+/// Compares with values that were calculated by hand from the two boxes and the parallel axis
+/// theorem, in cm.
 void expect_l(const VolumeIntegrals& l) {
     constexpr double cm = 1e-2;
     EXPECT_NEAR(l.volume, 3 * std::pow(cm, 3), 1e-14);
@@ -92,7 +94,7 @@ TEST(Concave, ThePiecesFillTheMeshAndNoMore) {
     EXPECT_EQ(shape.pieces.hulls.size(), 2u);
     EXPECT_NEAR(volume(shape.pieces.hulls), 3e-6, 1e-12);
     EXPECT_GT(depth(shape, {0.005, 0.015, 0.005}), 0.0049);
-    EXPECT_LT(depth(shape, {0.015, 0.015, 0.005}), -0.0049);  // in the hull, outside the L
+    EXPECT_LT(depth(shape, {0.015, 0.015, 0.005}), -0.0049);  // inside the hull, but outside the L
     const Shape boxes = files.read(kCompound);
     EXPECT_NEAR(depth(boxes, {0.005, 0.015, 0.005}), 0.005, 1e-12);
     EXPECT_NEAR(depth(boxes, {0.015, 0.015, 0.005}), -0.005, 1e-12);
@@ -119,7 +121,8 @@ TEST(Concave, PiecesAreKeptAndReadAgain) {
     const std::string file = files.kept();
     const std::string kept = testing::read_file(file);
     ASSERT_FALSE(kept.empty());
-    EXPECT_FALSE(fs::exists(files.folder.file("l.obj.pieces")));  // that folder is not ours
+    // that folder may belong to somebody else, so nothing is written there
+    EXPECT_FALSE(fs::exists(files.folder.file("l.obj.pieces")));
     const auto written = fs::last_write_time(files.kept());
     const Shape second = files.read(kBody);
     EXPECT_EQ(fs::last_write_time(files.kept()), written);
@@ -127,7 +130,7 @@ TEST(Concave, PiecesAreKeptAndReadAgain) {
     for (size_t i = 0; i < first.pieces.hulls.size(); ++i)
         EXPECT_EQ(first.pieces.hulls[i].vertices, second.pieces.hulls[i].vertices);
 
-    // another mesh, or another unit, makes other pieces
+    // another mesh, or the same mesh in another unit, has other pieces
     files.read(std::string(kBody).replace(std::string(kBody).find("cm,"), 2, "mm"));
     EXPECT_NE(testing::read_file(files.kept()), kept);
     files.read(kBody);
@@ -142,7 +145,7 @@ TEST(Concave, PiecesBesideTheMeshAreTaken) {
     EXPECT_EQ(files.kept(), "");
 }
 
-/// A file of pieces as version 0.2 wrote it.
+/// Converts a file of pieces to the form in which version 0.2 wrote it.
 std::string of_first_version(std::string kept) {
     kept = kept.substr(0, kept.rfind("end ")).replace(kept.find(" 2\n"), 3, " 1\n");
     uint64_t print = 0xcbf29ce484222325U;  // FNV-1a
@@ -159,7 +162,7 @@ TEST(Concave, PiecesOfTheFirstVersionAreTakenIfTheyFillTheMesh) {
     std::ofstream(file, std::ios::binary) << good;
     EXPECT_NEAR(volume(files.read(kBody).pieces.hulls), 3e-6, 1e-12);
     EXPECT_EQ(testing::read_file(file), good);
-    // only one of the two pieces, as left by the library's faults
+    // keeps only one of the two pieces, as happens through faults in the library
     std::string lost = kept;
     lost.erase(lost.rfind("piece "), lost.rfind("end ") - lost.rfind("piece "));
     std::ofstream(file, std::ios::binary) << of_first_version(lost);
@@ -167,7 +170,8 @@ TEST(Concave, PiecesOfTheFirstVersionAreTakenIfTheyFillTheMesh) {
     EXPECT_EQ(testing::read_file(file), kept);
 }
 
-/// A prism over a star; the cutting time grows with the number of teeth.
+/// A prism with a star-shaped base. The time needed to cut it grows with the number of points of
+/// the star.
 std::string star(int teeth) {
     std::string out;
     const int n = 2 * teeth;
@@ -195,7 +199,7 @@ TEST(Concave, ACutThatTakesLongCanBeCancelled) {
     Files files(star(300));
     std::stop_source stop;
     std::thread user([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the cut has begun
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));  // by then, the cut has begun
         stop.request_stop();
     });
     const auto begin = std::chrono::steady_clock::now();

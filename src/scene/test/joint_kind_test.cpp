@@ -1,4 +1,4 @@
-// Tests that the page on joints contains the table of their kinds.
+// Tests that the documentation page on joints contains the table of joint kinds.
 #include "scene/joint_kind.h"
 
 #include <fmt/format.h>

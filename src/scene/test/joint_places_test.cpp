@@ -1,4 +1,4 @@
-// Tests joints that a file gives in the frame of a body.
+// Tests joints that a file describes in the frame of a body.
 #include <gtest/gtest.h>
 
 #include "scene/test/read_text.h"

@@ -1,4 +1,4 @@
-// Tests the bodies and joints made from lattices, and mistakes in files with lattices.
+// Tests the bodies and joints that are made from lattices, and mistakes in files with lattices.
 #include "scene/lattice.h"
 
 #include <gtest/gtest.h>
@@ -33,11 +33,11 @@ TEST(Lattices, BecomeBlocksAndBushings) {
     ASSERT_EQ(scene.bodies.size(), 5u);
     EXPECT_TRUE(scene.lattices.empty());
     const Body& block = scene.bodies[static_cast<size_t>(scene.find("sponge_2_1_1"))];
-    // the lattice's x is the world's y
+    // the lattice's x axis is the world's y axis
     EXPECT_LT((block.position - Vec3(0.01, 0.015, 0.015)).norm(), 1e-12);
     EXPECT_DOUBLE_EQ(mass(block), 0.01);
     EXPECT_EQ(block.group, "sponge");
-    // four links between neighbours, four that glue it, and the file's own first
+    // the file's own joint first, then four links between neighbours and four that glue the lattice
     ASSERT_EQ(scene.joints.size(), 9u);
     EXPECT_EQ(scene.joints[0].name, "first");
     EXPECT_EQ(recorded_joints(scene).size(), 1u);

@@ -1,4 +1,4 @@
-// Tests how bodies look: pictures, meshes for the eye, and the colours of meshes.
+// Tests how bodies look: pictures, meshes that are seen but not felt, and the colours of meshes.
 #include "scene/look.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kBox = "shape: box\n    size_mm: [20, 20, 20]\n    mass_g: 1\n    ";
 
-/// A scene of one body that looks as the keys say.
+/// A scene with one body that looks as `keys` describe.
 std::string body(const std::string& keys, const std::string& shape = kBox) {
     return "bodies:\n  - name: b\n    " + shape + keys + "\n";
 }
@@ -36,7 +36,7 @@ std::string png(const testing::TemporaryFolder& folder, const std::string& name,
     return folder.file(name);
 }
 
-/// The felt shape is the same, to the bit, for all ways of drawing the mesh.
+/// However the mesh is drawn, the felt shape is bitwise the same.
 TEST(Look, OfAMeshChangesNothingThatIsFelt) {
     const testing::TemporaryFolder folder;
     folder.write("m.mtl", kMaterials);
@@ -75,8 +75,8 @@ TEST(Look, OfAFileIsRead) {
     EXPECT_DOUBLE_EQ(b.picture->width, 0.06);
     EXPECT_EQ(b.picture->image->height, 20);
     EXPECT_EQ(b.seen->mesh->vertices.size(), 4u);
-    EXPECT_TRUE(b.seen->mesh->colours.empty());  // the picture replaces them
-    // the felt shape is the box
+    EXPECT_TRUE(b.seen->mesh->colours.empty());  // the picture replaces the colours
+    // the shape that is felt is the box
     EXPECT_DOUBLE_EQ(integrate(b.shape).volume, 8e-6);
 }
 

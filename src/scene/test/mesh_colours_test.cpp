@@ -1,4 +1,4 @@
-// Tests that meshes have the colours of their files.
+// Tests that meshes get the colours in their files.
 #include <sys/stat.h>
 
 #include "scene/test/coloured_mesh.h"
@@ -7,7 +7,7 @@
 namespace dihaptic::scene::mesh_colours_test {
 namespace {
 
-/// Colours of a mesh at each corner of its faces.
+/// The colour of a mesh at each corner of each of its faces.
 std::vector<int32_t> corner_colours(const Mesh& mesh) {
     std::vector<int32_t> out;
     for (const auto& face : mesh.faces) {
@@ -32,7 +32,7 @@ TEST(MeshColours, AreThoseOfTheFile) {
         EXPECT_EQ(corner_colours(mesh), wanted) << name;
     }
     EXPECT_TRUE(read_mesh("meshes/stone.obj", 1, {}).colours.empty());
-    // the colours of the vertices are used, and a missing file gives none
+    // the colours of the vertices are used, because a missing materials file gives none
     const Mesh both = read_mesh(folder.write("b.obj", "mtllib gone.mtl\n" + obj), 1e-3, {});
     EXPECT_EQ(corner_colours(both), wanted);
     EXPECT_EQ(both.materials, "");
@@ -41,7 +41,7 @@ TEST(MeshColours, AreThoseOfTheFile) {
 TEST(MeshColours, OfStlAreNone) {
     const testing::TemporaryFolder folder;
     std::string bytes = stl_of(read_mesh("meshes/stone.obj", 1, {}), true);
-    // spare bytes that some programs read as colours
+    // fills the spare bytes, which some programs read as colours
     for (size_t at = 84 + 48; at + 1 < bytes.size(); at += 50) bytes.replace(at, 2, "\xff\xff");
     EXPECT_TRUE(read_mesh(folder.write("s.stl", bytes), 1, {}).colours.empty());
 }
@@ -59,7 +59,7 @@ TEST(MeshColours, OfMaterialsAreInTheFileThatTheMeshNames) {
         EXPECT_EQ(corner_colours(mesh), wanted) << library;
         EXPECT_EQ(mesh.materials, folder.file("parts.mtl")) << library;
     }
-    // as a session keeps it
+    // the mesh in the form in which a session keeps it
     const std::string copy = folder.write("mesh-1-a.obj", tetrahedron_obj("mtllib gone.mtl\n"));
     folder.write("mesh-1-a.mtl", kMaterials);
     EXPECT_EQ(corner_colours(read_mesh(copy, 1e-3, {})), wanted);
@@ -72,11 +72,11 @@ TEST(MeshColours, OfWhichThereAreNoneLeaveTheMeshAsItIs) {
     };
     folder.write("bare.mtl", "newmtl steel\nnewmtl old oak\nKd\nKd red\n");
     folder.write("noise.mtl", std::string("\0\xff Kd 1 1 1\n\n\nKd 1 1", 21));
-    ASSERT_EQ(mkfifo(folder.file("pipe.mtl").c_str(), 0600), 0);  // opening it would block
+    ASSERT_EQ(mkfifo(folder.file("pipe.mtl").c_str(), 0600), 0);  // opening the pipe would block
     for (const char* library : {"", "mtllib\n", "mtllib \n", "mtllib /\n", "mtllib no.mtl\n",
                                 "mtllib bare.mtl\n", "mtllib noise.mtl\n", "mtllib pipe.mtl\n"})
         EXPECT_TRUE(colours(library).empty()) << library;
-    // a materials file with only one of the two materials
+    // the materials file contains only one of the two materials
     folder.write("half.mtl", "newmtl steel\nKd 1 1 1\n");
     const std::vector<int32_t> half = colours("mtllib half.mtl\n");
     EXPECT_EQ(std::count(half.begin(), half.end(), -1), 3);

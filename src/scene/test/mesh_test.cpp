@@ -1,4 +1,4 @@
-// Tests of reading meshes through a separate program, which may crash on a damaged file.
+// Tests the reading of meshes by a separate program, which may crash on a damaged file.
 #include <sys/stat.h>
 
 #include <thread>
@@ -27,7 +27,7 @@ void expect_refused(const std::string& file, const std::string& why) {
     EXPECT_NE(said.find(why), std::string::npos) << said;
 }
 
-/// The corners of a mesh's triangles, in order and in the unit of its file.
+/// The corners of the triangles of a mesh, in order and in the unit of its file.
 std::vector<Vec3> corners(const Mesh& mesh) {
     std::vector<Vec3> out;
     for (const auto& f : mesh.faces) {
@@ -56,7 +56,8 @@ TEST(MeshReading, GivesTheSameTrianglesInEachFormat) {
 
 TEST(MeshReading, CoordinatesAreTheFilesToTheBit) {
     const testing::TemporaryFolder folder;
-    // coordinates are rounded to single precision, as meshes are exported, then scaled in double
+    // coordinates are rounded to single precision, as in exported meshes, and then scaled in double
+    // precision
     const std::string file =
         folder.write("t.obj",
                      "v 0.1 0 0\nv 1 0 0\nv 0 1.7 0\nv 0 0 12345.678\nf 1 3 2\nf 1 2 4\nf 1 4 3\n"
@@ -80,7 +81,7 @@ TEST(MeshReading, GivesTheSameTrianglesWhateverTheMaterials) {
         "f 1 4 3\nf 2 3 4\n";
     const std::string file = folder.write("m.obj", text);
     const std::vector<Vec3> alone = corners(read_mesh(file, 1, {}));
-    ASSERT_EQ(mkfifo(folder.file("m.mtl").c_str(), 0600), 0);  // opening it would block
+    ASSERT_EQ(mkfifo(folder.file("m.mtl").c_str(), 0600), 0);  // opening the pipe would block
     EXPECT_EQ(corners(read_mesh(file, 1, {})), alone);
     fs::remove(folder.file("m.mtl"));
     folder.write("m.mtl", "newmtl a\nnewmtl b\n");
@@ -109,7 +110,7 @@ TEST(MeshReading, SurvivesTwoHundredDamagedFiles) {
     EXPECT_EQ(outcomes.all(), 200);
     EXPECT_GT(outcomes.read, 0) << outcomes.text();
     EXPECT_GT(outcomes.refused, 0) << outcomes.text();
-    EXPECT_GT(outcomes.crashed, 0) << outcomes.text();  // otherwise this tests nothing
+    EXPECT_GT(outcomes.crashed, 0) << outcomes.text();  // otherwise nothing was tested
     for (const std::string& message : outcomes.untold) ADD_FAILURE() << message;
 }
 

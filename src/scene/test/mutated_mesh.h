@@ -1,5 +1,5 @@
 // Damaged meshes for tests: the shipped meshes in each format that can be read, with changed bytes,
-// cut-off ends, lines lost or doubled, impossible numbers, and headers that promise too much.
+// truncated ends, lost or doubled lines, impossible numbers, and headers that announce too much.
 #pragma once
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ struct MeshFile {
     std::string bytes;
 };
 
-/// The bytes of a value as they are in memory.
+/// Returns the bytes of a value as they are in memory.
 template <class Value>
 std::string raw(Value value) {
     std::string out(sizeof(Value), '\0');
@@ -59,7 +59,7 @@ inline std::string stl_of(const Mesh& mesh, bool binary) {
     return binary ? out : out + "endsolid t\n";
 }
 
-/// A mesh as PLY text, or as binary in either byte order.
+/// Returns a mesh as a PLY file, either in text form or in binary form with either byte order.
 inline std::string ply_of(const Mesh& mesh, const std::string& format) {
     std::string out = fmt::format(
         "ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float "
@@ -83,7 +83,7 @@ inline std::string ply_of(const Mesh& mesh, const std::string& format) {
     return out;
 }
 
-/// The shipped meshes in every format.
+/// The shipped meshes in all formats.
 inline std::vector<MeshFile> whole_meshes() {
     std::vector<MeshFile> out;
     for (const char* name : {"cup", "fingertip", "hook", "pad", "spatula", "stone", "stylus"}) {
@@ -98,7 +98,7 @@ inline std::vector<MeshFile> whole_meshes() {
     return out;
 }
 
-/// Damages files; the same number gives the same damage on every machine.
+/// Damages files. The same seed causes the same damage on every machine.
 class Damage {
   public:
     explicit Damage(uint64_t number) : engine_(number) {}
@@ -140,7 +140,7 @@ class Damage {
         }
     }
 
-    /// Doubles or removes a line.
+    /// Duplicates or removes a line.
     void line(std::string& bytes, bool twice) {
         const size_t from = bytes.find('\n', below(bytes.size()));
         if (from == std::string::npos) return;
@@ -150,7 +150,7 @@ class Damage {
         if (!twice) bytes.erase(from, text.size());
     }
 
-    /// Replaces a number in the text before `end` by one that no mesh has.
+    /// Replaces a number in the text before `end` with a number that no mesh contains.
     void number(std::string& bytes, size_t end) {
         static constexpr std::array kExtreme{
             "1e38", "-1e39", "1e308", "1e-45",      "nan",        "-inf",
@@ -167,7 +167,7 @@ class Damage {
         if (at + 4 <= bytes.size()) bytes.replace(at, 4, raw(kExtreme[below(kExtreme.size())]));
     }
 
-    /// Changes a count in the header.
+    /// Changes a count in the header of the file.
     void head(MeshFile& file) {
         const bool binary_stl = file.ending == ".stl" && !file.bytes.starts_with("solid");
         if (binary_stl) return word(file.bytes, 80);
@@ -178,7 +178,7 @@ class Damage {
     std::mt19937_64 engine_;
 };
 
-/// Numbers of damaged files by outcome.
+/// How many damaged files had each outcome.
 struct Outcomes {
     int read = 0;
     int refused = 0;
@@ -187,7 +187,7 @@ struct Outcomes {
     int memory = 0;
     int output = 0;
     double slowest = 0;               ///< [s]
-    std::vector<std::string> untold;  ///< messages that do not name the mesh, its place or a remedy
+    std::vector<std::string> untold;  ///< messages that lack the mesh's name, its place or a remedy
 
     int all() const { return read + refused + crashed + time + memory + output; }
     void add(const Outcomes& other) {
@@ -227,7 +227,8 @@ inline void count_message(const Problem& problem, const std::string& file, Outco
     }
 }
 
-/// Reads every `stride`th damaged file from `first` to `end`, as if a scene named it.
+/// Reads every `stride`th damaged file from `first` to `end`, in the way in which a mesh named by a
+/// scene is read.
 inline Outcomes read_damaged(const std::vector<MeshFile>& whole, uint64_t first, uint64_t end,
                              uint64_t stride = 1) {
     const testing::TemporaryFolder folder;

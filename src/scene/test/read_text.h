@@ -1,4 +1,4 @@
-// Reads a scene from text, for tests.
+// Reads a scene from text, for use in tests.
 #pragma once
 
 #include <string>

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Vertices of a box with corners at 0 and `size`.
+/// Vertices of a box with opposite corners at 0 and `size`.
 std::vector<Vec3> corners(const Vec3& size) {
     std::vector<Vec3> out;
     for (int i = 0; i < 8; ++i)
@@ -43,7 +43,8 @@ TEST(Hull, OfPointsInAPlaneIsEmpty) {
 }
 
 TEST(Hull, HasAllPointsBehindEachFaceHoweverNearTheyAre) {
-    // corners in lines and planes, and corners that are nanometres to tenths of a millimetre apart
+    // corners that lie on lines and in planes, and corners that are between nanometres and tenths
+    // of a millimetre apart
     std::mt19937 random(7);
     const auto draw = [&](int from, int to) {
         return std::uniform_int_distribution<>(from, to)(random);
@@ -82,7 +83,7 @@ TEST(Hull, HasAllPointsBehindEachFaceHoweverNearTheyAre) {
 }
 
 TEST(Integrals, OfRoundShapesAgreeWithTheirFinePolyhedra) {
-    // a capsule as a surface of revolution with many facets
+    // a capsule, represented as a surface of revolution with many facets
     Shape capsule;
     capsule.kind = ShapeKind::capsule;
     capsule.radius = 0.01;
@@ -150,7 +151,8 @@ TEST(Integrals, OfAConeAreThoseOfItsClosedFormAndOfItsFinePolyhedron) {
 }
 
 TEST(Depth, OfAConeIsFromTheNearestOfSideAndBase) {
-    // a cone of 3, 4 and 5: the distances of these points from its side are whole
+    // a cone with sides in the ratio 3 : 4 : 5, so that the distances of these points from its side
+    // are whole numbers
     const Shape shape = cone(0.03, 0.04);
     EXPECT_NEAR(depth(shape, {0, 0, 0.02}), 0, 1e-15);
     EXPECT_NEAR(depth(shape, {0.03, 0, -0.02}), 0, 1e-15);
@@ -190,7 +192,7 @@ TEST(PairSurface, FollowsFromTheTwoSurfaces) {
     EXPECT_TRUE(pair(0.5, {}, 0.5, ball).slides_like_coulomb());
     EXPECT_DOUBLE_EQ(pair(0.5, sponge, 0.5, {}).stiffness, 300);
     EXPECT_DOUBLE_EQ(pair(0.5, sponge, 0.5, {}).damping, 3);
-    // a force that grows by 1 N/s presses the sponge by 1/300 m/s, which its damper resists
+    // a force that grows by 1 N/s presses the sponge in at 1/300 m/s, which its damper resists
     EXPECT_DOUBLE_EQ(pair(0.5, sponge, 0.5, foam).stiffness, 200);
     EXPECT_DOUBLE_EQ(pair(0.5, sponge, 0.5, foam).damping, 3 * 4.0 / 9);
     EXPECT_DOUBLE_EQ(pair(0.5, ball, 0.5, {}).restitution, 0.7);
@@ -230,7 +232,7 @@ TEST(PairSurface, FallsByStribecksCurveAndRisesByItsFilm) {
     EXPECT_NEAR(surface.friction_at(1, 0), 0.4, 1e-12);
 }
 
-/// The messages from reading a scene.
+/// The messages reported when the scene is read.
 std::string problems_of(const std::string& yaml) {
     const testing::TemporaryFolder folder;
     Diagnostics diagnostics;
@@ -462,7 +464,7 @@ TEST(SceneFile, ANameThatNoRecordingCanHaveIsAnError) {
               std::string::npos);
 }
 
-/// A scene with this many fingers, and one with this many bodies.
+/// Returns a scene with `count` fingers; the function below returns one with as many bodies.
 std::string scene_with_fingers(size_t count) {
     std::string out = kBlock + "fingers:\n";
     for (size_t i = 0; i < count; ++i)
@@ -613,7 +615,7 @@ INSTANTIATE_TEST_SUITE_P(SceneFile, MeshFormat,
                                            std::pair{"t.ply", kPly}));
 
 TEST(SceneFile, WarnsThatAConcaveMeshBecomesItsHull) {
-    // an L of two boxes that share a face
+    // an L-shaped compound of two boxes that share a face
     const testing::TemporaryFolder folder;
     folder.write("l.obj",
                  "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n"

@@ -1,4 +1,4 @@
-// Tests the curves of springs: their segments, and mistakes in files.
+// Tests spring curves: their segments, and mistakes in files.
 #include "scene/spring_curve.h"
 
 #include <gtest/gtest.h>

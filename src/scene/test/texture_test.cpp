@@ -12,8 +12,8 @@
 namespace dihaptic::scene::texture_test {
 namespace {
 
-/// A picture of 8 x 6 pixels that is black except for one white pixel, in the second row from the
-/// top and the seventh column.
+/// A black picture of 8 x 6 pixels with a single white pixel, in the second row from the top and
+/// the seventh column.
 ReliefPicture one_bump() {
     std::vector<float> grey(48, 0.f);
     grey[1 * 8 + 6] = 1;
@@ -33,7 +33,7 @@ TEST(Texture, IsScaledWithinItsLimits) {
     scaled.scale(given, 1, 10, 10);
     EXPECT_DOUBLE_EQ(scaled.height, Texture::kHighest);
     EXPECT_DOUBLE_EQ(scaled.friction, 1);
-    scaled.scale(given, 0.1, 1, 1);  // ridges 0.2 mm apart
+    scaled.scale(given, 0.1, 1, 1);  // the distance between ridges is now 0.2 mm
     EXPECT_DOUBLE_EQ(scaled.steepest(), Texture::kSteepest);
     scaled.scale(given, 1, 1, 1);
     EXPECT_EQ(scaled, given);
@@ -41,7 +41,8 @@ TEST(Texture, IsScaledWithinItsLimits) {
 
 TEST(ReliefPicture, HasItsBumpWhereItsPixelIs) {
     const ReliefPicture picture = one_bump();
-    // the pixel's centre is 2.5 pixels to the right of the picture's, and 1.5 above it
+    // the centre of the pixel is 2.5 pixels to the right of the centre of the picture, and 1.5
+    // pixels above it
     EXPECT_NEAR(picture.at(2.5, 1.5).height, 4. / 9, 1e-12);
     EXPECT_NEAR(picture.at(2.5, 1.5).rise_x, 0, 1e-12);
     EXPECT_GT(picture.at(2, 1.5).rise_x, 0.1);
@@ -73,7 +74,7 @@ TEST(ReliefPicture, IsAsHighAsItsGreyWhereThatIsEven) {
     EXPECT_NEAR(picture.steepest(), 0, 1e-12);
 }
 
-/// Writes a picture of this many pixels, black except for its last column.
+/// Writes a picture of width x height pixels that is black except for its last column.
 std::string write(const std::string& name, int width, int height) {
     Image image{width, height, {}};
     for (int y = 0; y < height; ++y) {
@@ -93,7 +94,8 @@ TEST(Texture, OfAPictureLiesOnEachFaceAsItSays) {
     texture.height = 1e-4;
     texture.friction = 0.5;
     texture.picture = std::make_shared<const ReliefPicture>(read_relief(file, {}));
-    // the centre of the last column is 4.5 of the ten pixels to the right of the picture's
+    // the centre of the last column is 4.5 of the ten pixels to the right of the centre of the
+    // picture
     const double right = 0.009;
     const double high = 1e-4 * 2 / 3;
     EXPECT_NEAR(texture.at({right, 0.3, 0}, Vec3::UnitZ()).height, high, 1e-12);

@@ -1,5 +1,5 @@
-// Tests that force is zero on all fingers in the tick in which any part of the loop computes
-// with a value that is not a number, and that the reason is reported.
+// Tests that force is zero on all fingers in any tick in which some part of the loop computes with
+// a value that is not a number, and that the reason is reported.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -13,10 +13,10 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const Vec3 kEast = Vec3::UnitX();
 
-/// A change planted in one tick of a grasp.
+/// A change made on purpose in one tick of a grasp.
 struct Planted {
     const char* name;
-    haptics::FaultKind kind;  ///< none: any fault, or no fault if there is no effect
+    haptics::FaultKind kind;  ///< `none`: any fault, or no fault if there is no effect
     std::function<void(PlantedGrasp&, double)> change;    ///< made before the tick
     std::function<void(frame::Commands&, double)> order;  ///< ordered by the director in the tick
 };
@@ -212,7 +212,7 @@ TEST(HugeNumbers, DivergeBeforeTheyOverflow) {
             EXPECT_EQ(grasp.servo->fault().kind, haptics::FaultKind::diverged) << x;
             EXPECT_EQ(grasp.told(), 0);
         }
-        // a value that is absurd but finite is accepted
+        // values that are absurd but finite are accepted
         PlantedGrasp grasp(settings_of(setting));
         grasp.grasp();
         grasp.servo->world().set_velocity({kBlock}, 1e8 * kEast);

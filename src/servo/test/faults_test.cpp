@@ -14,12 +14,12 @@ namespace {
 
 enum class Injected { nan, gone, jump, late };
 
-/// Makes one of a grasp's devices fail at its `tick`th reading.
+/// Makes one device of a grasp fail in its reading number `tick`.
 struct Failure {
     Injected what;
     int tick;
     size_t device;
-    bool sleeps = false;  ///< for Injected::late: really sleeps, for the real clock
+    bool sleeps = false;  ///< for Injected::late: actually sleeps, for runs on the real clock
 };
 
 void inject(PlantedGrasp& grasp, const Failure& failure) {
@@ -58,14 +58,14 @@ TEST_P(FaultInjected, TakesAllForceAwayInTheSameTickForGood) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     Random random(4, "faults");
     for (int trial = 0; trial < 20; ++trial) {
-        const int tick = static_cast<int>(random.uniform(350, 750));  // in the grasp
+        const int tick = static_cast<int>(random.uniform(350, 750));  // during the grasp
         const Failure failure{GetParam().what, tick,
                               random.uniform(0, 1) < 0.5 ? size_t{0} : size_t{1}};
         PlantedGrasp grasp;
         inject(grasp, failure);
         const testing::AllocationGuard guard;
         for (int i = 0; i < 900; ++i) {
-            // a pause shows in the next tick's time
+            // a pause shows up in the time of the next tick
             const Time pause = GetParam().what == Injected::late && i > tick
                                    ? std::chrono::milliseconds(50)
                                    : std::chrono::milliseconds(0);
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{Injected::late, haptics::FaultKind::late, kLate}));
 
 TEST(Faults, AWorldThatDivergesIsOneAndEndsForce) {
-    frame::Settings settings;  // an explicit spring far beyond m / h^2 diverges
+    frame::Settings settings;  // an explicit spring much stiffer than m / h^2 diverges
     settings.coupling.kind = frame::CouplingKind::dual_spring;
     settings.coupling.stiffness = 1e6;
     settings.coupling.body_mass = 1e-7;
@@ -137,7 +137,7 @@ TEST(FaultsInRealTime, ACallThatBlocksLeavesNoForceInTheNextTick) {
         },
         Time(0), std::chrono::milliseconds(600), stop, timing);
     if (testing::kSanitized) return;
-    // on a busy machine another pause may have come first
+    // on a busy machine, some other pause may have come first
     EXPECT_EQ(grasp.servo->fault().kind, haptics::FaultKind::late);
 }
 

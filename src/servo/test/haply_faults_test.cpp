@@ -1,4 +1,4 @@
-// Tests a grasp on two Inverse3 whose service fails in the middle of it, on the real clock.
+// Tests a grasp with two Inverse3 devices whose service fails during the grasp, on the real clock.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@ using devices::haply::FakeService;
 using devices::haply::Mischief;
 using std::chrono::milliseconds;
 
-constexpr int kMessage = 150;  // by then the fingers have closed
-constexpr int kAfter = 30;     // ticks to check after a fault
+constexpr int kMessage = 150;  // the fingers have closed by then
+constexpr int kAfter = 30;     // number of ticks to check after a fault
 
 struct Case {
     Mischief what;
@@ -25,17 +25,17 @@ struct Case {
 
 /// The outcome of one run.
 struct Outcome {
-    int mischief_tick = -1;  ///< tick at which the service failed; -1: the run ended earlier
+    int mischief_tick = -1;  ///< tick in which the service failed; -1 if the run ended earlier
     std::vector<FakeService::Forces> felt;
     haptics::Fault fault;
-    int after_fault = 0;  ///< number of Frames from the fault on
+    int after_fault = 0;  ///< number of Frames since the fault
     bool force_after_fault = false;
 };
 
 Outcome grasp(const Case& c) {
     const scene::Scene scene = block_on_table();
     hand::HandSpec hand = lifting_hand();
-    hand.script.front().duration = 0.1;  // short, to avoid disturbances
+    hand.script.front().duration = 0.1;  // kept short to avoid disturbances
     const auto fingers = scene::finger_names(scene);
     const hand::ScriptDriver driver(hand, fingers);
     devices::Context context;
@@ -48,7 +48,7 @@ Outcome grasp(const Case& c) {
     service.misbehave(c.what, kMessage, 1, milliseconds(c.late_ms));
 
     frame::Settings settings;
-    settings.safety.max_pause = 1;  // the machine may be busy, which is not tested here
+    settings.safety.max_pause = 1;  // pauses of a busy machine are not the subject of this test
     settings.safety.hand_damping = 100;
     settings.safety.soft_start = 0;
     const auto configs =
@@ -81,7 +81,7 @@ class HaplyFault : public ::testing::TestWithParam<Case> {};
 
 TEST_P(HaplyFault, LeavesNoForceOnAnyDeviceAndEndsNothingElse) {
     Outcome result;
-    // on a busy machine a real pause may come first and end the run
+    // on a busy machine, a real pause may come first and end the run
     for (int attempt = 0; attempt < 20 && result.mischief_tick < 0; ++attempt)
         result = grasp(GetParam());
     if (result.mischief_tick < 0)

@@ -1,5 +1,5 @@
-// Tests ticks that come late again and again, in the whole servo: the force on the hand while the
-// coupling is softened, and its end when the loop allows no useful stiffness.
+// Tests ticks that are late again and again, in the complete servo: the force on the hand while the
+// coupling is softened, and that force ends when the loop allows no useful stiffness.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,28 +20,29 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr double kWanted = 1.5;  // force of a finger: 300 N/m behind 1000 N/m [N]
-constexpr double kDepth = kWanted * (1 / 300.0 + 1 / 1000.0);  // target's, beyond contact [m]
+constexpr double kWanted = 1.5;  // force of each finger, with 300 N/m and 1000 N/m in series [N]
+constexpr double kDepth = kWanted * (1 / 300.0 + 1 / 1000.0);  // depth of target after contact [m]
 
-/// Thumb and index close on a block, or the thumb presses a wall, from 3 cm away within 1 s.
+/// Thumb and index finger close on a block, or the thumb presses on a wall; both movements start 3
+/// cm away and take 1 s.
 struct Hold {
     hand::HandSpec hand;
     std::unique_ptr<hand::ScriptDriver> driver;
     std::unique_ptr<Servo> servo;
     Time now{0};
-    double most = 0;    ///< force sent to any device [N]
-    double last = 0;    ///< force sent to any device in the last tick [N]
-    double before = 0;  ///< force in the last tick before the late ones [N]
+    double most = 0;    ///< largest force sent to any device [N]
+    double last = 0;    ///< largest force sent to any device in the last tick [N]
+    double before = 0;  ///< largest force in the last tick before the late ticks [N]
     uint32_t status = 0;
     double stiffness = 0;
     double softest = std::numeric_limits<double>::infinity();
 
     enum class What { wall, block };
-    /// `backend`: "real" or "simulated" for simulated devices that count as real or as simulated
-    /// ones, or the name of a manufacturer's backend.
+    /// `backend` is "real" or "simulated" for simulated devices that count as real or as simulated,
+    /// or the name of a manufacturer's backend.
     explicit Hold(What what, const std::string& backend = "real", frame::Settings settings = {}) {
         scene::Scene scene = block_on_table();
-        constexpr double kTouch = 0.0225;  // x of a pad's centre at contact
+        constexpr double kTouch = 0.0225;  // x of a pad's centre when it touches
         constexpr double kOff = 0.03;
         hand.centre = {0, 0, 0.02};
         hand.aperture = 2 * (kTouch + kOff);
@@ -76,7 +77,7 @@ struct Hold {
             devices::Hand& plant = backend == "openhaptics"
                                        ? devices::openhaptics::fake_hd_as_it_is().hand
                                        : devices::forcedimension::fake_dhd_as_it_is().hand;
-            // driven by the servo's time instead of one period each tick
+            // driven by the servo's time instead of advancing one period per tick
             plant = [this, inner = plant](size_t i, double, const Wrench& acting) {
                 return inner(i, seconds(now), acting);
             };
@@ -96,8 +97,8 @@ struct Hold {
         stiffness = frame.stiffness;
         softest = std::min(softest, stiffness);
     }
-    /// Runs ticks until `end`, a millisecond apart up to `from` and `apart` from then on, called by
-    /// the devices if they pace; `each` is called after each tick.
+    /// Runs ticks until `end`, one millisecond apart until `from` and `apart` from then on. If the
+    /// devices pace the run, they call the ticks. `each` is called after each tick.
     void run(Time from, Time apart, Time end, const std::function<void()>& each = {}) {
         const auto next = [&] {
             if (now < from) before = last;
@@ -118,8 +119,8 @@ struct Hold {
 struct Case {
     const char* backend;
     Hold::What what;
-    int late;  ///< lateness of each tick [ms]
-    int from;  ///< start of the late ticks [ms]
+    int late;  ///< how late each tick is [ms]
+    int from;  ///< when the late ticks start [ms]
 };
 void PrintTo(const Case& c, std::ostream* out) {
     *out << c.backend << (c.what == Hold::What::wall ? " wall " : " block ") << c.late
@@ -157,7 +158,7 @@ TEST_P(KeepsLate, NeverPushesHarderThanWantedAndEndsWhereNothingIsHeld) {
     if (held < 1000) {
         EXPECT_NE(hold.status & kSoftened, 0u);
     }
-    // the grip that remains: the same target through a softer spring
+    // the remaining grip: the same target, but a softer spring
     const double k = hold.stiffness;
     EXPECT_NEAR(hold.last, kDepth * 300 * k / (300 + k), 0.03);
 }
@@ -167,7 +168,7 @@ std::vector<Case> cases() {
     for (const char* backend : {"real", "openhaptics", "forcedimension"}) {
         for (const Hold::What what : {Hold::What::wall, Hold::What::block}) {
             for (const int late : {2, 5, 10, 20, 38}) {
-                // late while the block is held, in the middle of closing, and from the start
+                // late while the block is held, while the hand is closing, and from the start
                 for (const int from : {2000, 750, 0}) out.push_back({backend, what, late, from});
             }
         }
@@ -177,10 +178,10 @@ std::vector<Case> cases() {
 INSTANTIATE_TEST_SUITE_P(Servo, KeepsLate, ::testing::ValuesIn(cases()));
 
 using What = Hold::What;
-constexpr Time kHeld = milliseconds(2000);  // the hand came to rest long before
+constexpr Time kHeld = milliseconds(2000);  // the hand has come to rest long before
 
 TEST(Late, NoneChangesABit) {
-    // ticks exactly one period apart, on devices that count as real and as simulated
+    // ticks exactly one period apart, with devices that count as real and as simulated
     Hold real(What::block);
     Hold simulated(What::block, "simulated");
     for (int i = 0; i < 2000; ++i, real.now += milliseconds(1), simulated.now += milliseconds(1)) {
@@ -227,7 +228,7 @@ TEST(Late, TheCouplingComesBackWithoutAStepInForce) {
 }
 
 TEST(Late, AReplayThatAsksForWhatWasInForceIsTheSame) {
-    // this holds if the replay's ticks have the same times
+    // holds if the replay's ticks have the same times
     frame::Settings settings;
     settings.coupling.damping = 2;
     Hold hold(What::block, "real", settings);
@@ -235,7 +236,7 @@ TEST(Late, AReplayThatAsksForWhatWasInForceIsTheSame) {
     double softest = 1000;
     Time now{0};
     for (int i = 0; i < 2500; ++i) {
-        // in time, alternately late and in time, all late, and in time again
+        // ticks are on time, then alternately late and on time, all late, and on time again
         now += milliseconds(i < 500 ? 1 : i < 900 ? 1 + 12 * (i % 2) : i < 1200 ? 13 : 1);
         const frame::Frame& frame = hold.servo->tick(now, {});
         const frame::Knobs in_force = frame;
@@ -269,7 +270,7 @@ TEST(Late, OnSimulatedDevicesIsToldAndNoFault) {
     EXPECT_EQ(hold.softest, 1000);
     EXPECT_NE(hold.status & kLate, 0u);
     EXPECT_EQ(hold.status & (kForceOff | kSoftened), 0u);
-    // lateness below max_pause is not a fault either
+    // lateness below max_pause is not a fault, either
     frame::Settings settings;
     settings.safety.hand_damping = 1;
     Hold often(What::wall, "simulated", settings);
@@ -285,7 +286,7 @@ TEST(Late, MoreThanMaxLateEndsForceInTheNextTick) {
     settings.safety.max_late = 3e-3;
     Hold hold(What::wall, "real", settings);
     hold.run(kHeld, milliseconds(1), kHeld);
-    hold.now += milliseconds(3);  // in addition to the 1 ms that run() has added
+    hold.now += milliseconds(3);  // in addition to the 1 ms added by run()
     hold.tick();
     EXPECT_FALSE(hold.servo->fault());
     EXPECT_GT(hold.last, 1);
@@ -295,7 +296,7 @@ TEST(Late, MoreThanMaxLateEndsForceInTheNextTick) {
     EXPECT_EQ(hold.servo->fault().kind, haptics::FaultKind::late);
     EXPECT_NEAR(hold.servo->fault().value, 4e-3, 1e-9);
     EXPECT_EQ(hold.servo->fault().limit, 3e-3);
-    // a late wake-up of a tick whose time is its due time
+    // a tick that wakes up late, but whose time is the time when it was due
     Hold woken(What::wall, "real", settings);
     woken.run(kHeld, milliseconds(1), kHeld);
     woken.servo->note_timing(2.9e-3, 1e-5, false);

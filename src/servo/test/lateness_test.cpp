@@ -10,7 +10,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A loop with a period of one millisecond, some of whose ticks are late.
+/// A loop with a period of one millisecond and some late ticks.
 struct Loop {
     Lateness late{milliseconds(1)};
     Time now{0};
@@ -54,7 +54,7 @@ TEST(Lateness, OfTicksThatAreAllLateIsTheirsWithinASecondAndAHalf) {
             EXPECT_LE(last, loop.late.sustained() * (1 + 1e-9));
             last = loop.late.sustained();
         }
-        // all ticks are late by more than half a period; all but one in the window are used
+        // all ticks are late by more than half a period; all intervals except one are used
         EXPECT_NEAR(last, by * 1e-3, 0.05e-3 * by) << by;
         loop.tick(milliseconds(1), 3000);
         EXPECT_EQ(loop.late.sustained(), 0) << by;
@@ -67,7 +67,7 @@ TEST(Lateness, CountsEachIntervalByItsLength) {
         loop.tick(milliseconds(21));
         loop.tick(milliseconds(1), 4);
     }
-    // 40 intervals of 21 ms in the last second, one of them forgiven
+    // 40 intervals of 21 ms in the last second, one of which is forgiven
     EXPECT_NEAR(loop.late.sustained(), 39 * 21e-3 * 20e-3 / (1 - 21e-3), 1e-4);
 }
 
@@ -76,7 +76,7 @@ TEST(Lateness, NeverChangesAtOnce) {
     loop.tick(milliseconds(1), 100);
     double last = 0;
     for (int i = 0; i < 3500; ++i) {
-        // a pause of 39 ms every fifth of a second, and then no more
+        // a pause of 39 ms every fifth of a second, then no more pauses
         loop.tick(milliseconds(i % 200 == 0 && i < 2000 ? 39 : 1));
         if (last > 1e-4) {
             EXPECT_NEAR(loop.late.sustained() / last, 1, 0.4) << i;
@@ -128,7 +128,7 @@ TEST(Suspension, IsTheTimeThatOnlyOneOfTheClocksCounted) {
 }
 
 TEST(Suspension, IsNotWhatAThreadHadToWaitBetweenTwoReadings) {
-    // clock readings at first, later, and with a wait before and after the middle reading
+    // first reading, later reading, and readings with a wait before and after the middle value
     Suspension suspension({seconds(100), seconds(501), seconds(101)});
     EXPECT_EQ(suspension.since({seconds(102), seconds(502), seconds(102)}), Time(0));
     EXPECT_EQ(suspension.since({seconds(103), seconds(508), seconds(108)}), Time(0));

@@ -1,4 +1,4 @@
-// The grasp that the servo's tests use: two fingers that close on a block on a table, and lift it.
+// The grasp used by the servo's tests: two fingers close on a block on a table and lift it.
 #pragma once
 
 #include "devices/device_group.h"
@@ -25,7 +25,7 @@ inline scene::Scene block_on_table() {
     return out;
 }
 
-/// A hand that closes within 0.3 s and then lifts for 0.5 s.
+/// Returns a hand that closes within 0.3 s, then lifts for 0.5 s.
 inline hand::HandSpec lifting_hand() {
     hand::HandSpec out;
     out.centre = {0, 0, 0.02};

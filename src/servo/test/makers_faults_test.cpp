@@ -1,5 +1,6 @@
-// Tests faults of real devices in the whole servo, on fakes of their manufacturers' libraries: no
-// force on any device in the tick that detects the fault, and the message for the person.
+// Tests faults of real devices in the complete servo, using fakes of the manufacturers' libraries:
+// no device may apply force in the tick that detects the fault, and the person must receive a
+// message.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -18,9 +19,9 @@ using devices::forcedimension::FakeDhd;
 using devices::openhaptics::FakeHd;
 using std::chrono::milliseconds;
 
-constexpr int kTick = 500;  // tick of the fault, in which the block is being lifted
+constexpr int kTick = 500;  // tick of the fault, while the block is being lifted
 
-/// Two fingers that close on a block within 0.3 s and lift it, through a manufacturer's library.
+/// Two fingers that close on a block within 0.3 s and lift it, using a manufacturer's library.
 struct Grasp {
     hand::HandSpec hand = lifting_hand();
     std::unique_ptr<hand::ScriptDriver> driver;
@@ -45,7 +46,7 @@ struct Grasp {
                                         rig::poses(rig::simulated_rig(fingers), fingers));
         servo->activate();
     }
-    /// The present force on a finger [N].
+    /// Returns the present force on a finger [N].
     double acting(size_t device) const {
         return hd != nullptr ? hd->devices[device].acting.norm()
                              : dhd->devices[device].acting.norm();
@@ -78,7 +79,7 @@ TEST_P(MakersFaults, TakeAllForceAwayInTheTickThatLearnsOfThem) {
     run_virtual(
         *grasp.servo,
         [&](const frame::Frame& last, std::span<const frame::Handle>, frame::Commands&) {
-            // while the forces of the last tick act
+            // the forces of the last tick are still acting
             if (last.sequence == kTick - 1) {
                 EXPECT_GT(grasp.acting(0), 0.5);
                 EXPECT_GT(grasp.acting(1), 0.5);
@@ -86,7 +87,7 @@ TEST_P(MakersFaults, TakeAllForceAwayInTheTickThatLearnsOfThem) {
             }
             if (last.sequence <= kTick) return;
             EXPECT_EQ(grasp.acting(0), 0) << last.sequence;
-            // a device without requests is stopped only by its own watchdog
+            // a device that receives no requests is stopped only by its own watchdog
             const bool deaf = grasp.dhd != nullptr && grasp.dhd->devices[1].silent;
             if (deaf && last.sequence < kTick + 32) return;
             EXPECT_EQ(grasp.acting(1), 0) << last.sequence;
@@ -96,7 +97,7 @@ TEST_P(MakersFaults, TakeAllForceAwayInTheTickThatLearnsOfThem) {
                 ASSERT_TRUE(finger.p_WH.allFinite());
                 ASSERT_TRUE(finger.f_sent_W.allFinite());
             }
-            // the fault happens between a reading and its force: the next reading detects it
+            // the fault follows a reading, so the next reading detects it
             if (frame.sequence <= kTick) return;
             ++after;
             EXPECT_NE(frame.status & kForceOff, 0u) << frame.sequence;
@@ -141,7 +142,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"DHD broken", "forcedimension", [](Grasp& g) { g.dhd->devices[0].broken = true; },
              FaultKind::device_fault, kDeviceFault, "reports a fault of its own. Let it cool"}));
 
-/// Tests a device that cuts its own force: the others' forces wait for it, and all return gently.
+/// Tests a device that cuts its own force: the forces of the other devices must wait for it, and
+/// all forces must return gently.
 class ForceCut : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ForceCut, LeavesNoHalfGraspAndComesBackSoftly) {
@@ -165,7 +167,7 @@ TEST_P(ForceCut, LeavesNoHalfGraspAndComesBackSoftly) {
                 status = frame.status;
                 EXPECT_EQ(most, 0);
             }
-            // 5 % of the force at 5 % of the soft start of 0.5 s
+            // 5 % of the force after 5 % of the soft start of 0.5 s
             if (frame.sequence > kTick + 1 && frame.sequence < kTick + 25)
                 highest_soon = std::max(highest_soon, most);
             if (frame.sequence == kTick + 800) later = most;
@@ -179,10 +181,10 @@ TEST_P(ForceCut, LeavesNoHalfGraspAndComesBackSoftly) {
 }
 INSTANTIATE_TEST_SUITE_P(Servo, ForceCut, ::testing::Values("openhaptics", "forcedimension"));
 
-/// Tests in real time a call that blocks in the middle of a tick.
+/// Tests, in real time, a call that blocks in the middle of a tick.
 class Late : public ::testing::TestWithParam<const char*> {
   protected:
-    /// Runs for 0.7 s; a call of the second device blocks for `pause`.
+    /// Runs for 0.7 s, during which a call of the second device blocks for `pause`.
     Timing run(Grasp& grasp, Time pause, const frame::FrameSink& sink) {
         auto frames = std::make_shared<int>(0);
         const auto block = [this, pause, frames](size_t device) {
@@ -207,7 +209,7 @@ class Late : public ::testing::TestWithParam<const char*> {
 
 TEST_P(Late, By5MsIsAnOverrun) {
     frame::Settings settings;
-    settings.safety.max_pause = 1;  // real pauses on a busy machine are not tested here
+    settings.safety.max_pause = 1;  // pauses of a busy machine are not the subject of this test
     settings.safety.hand_damping = 100;
     Grasp grasp(GetParam(), settings);
     double force = 0;
@@ -222,13 +224,13 @@ TEST_P(Late, By5MsIsAnOverrun) {
 TEST_P(Late, By50MsTakesAllForceAway) {
     Grasp grasp(GetParam());
     run(grasp, milliseconds(50), [&](const frame::Frame& frame) {
-        if (frame.sequence < kTick) return;  // numbered from 0, blocking ticks from 1
+        if (frame.sequence < kTick) return;  // frames count from 0, blocking ticks from 1
         EXPECT_NE(frame.status & kForceOff, 0u) << frame.sequence;
         EXPECT_EQ(grasp.acting(0), 0);
         EXPECT_EQ(grasp.acting(1), 0);
     });
     if (testing::kSanitized) return;
-    // on a busy machine another pause may have come first
+    // on a busy machine, some other pause may have come first
     EXPECT_EQ(grasp.servo->fault().kind, FaultKind::late);
     EXPECT_NE(grasp.told().find("look for a device that blocks"), std::string::npos)
         << grasp.told();
@@ -266,7 +268,7 @@ class LateStopped : public Late {};
 TEST_P(LateStopped, ACallThatBlocksIsNotWaitedFor) {
     Grasp grasp(GetParam());
     double force = 1;
-    // while the call still blocks
+    // called while the call is still blocked
     blocked = [&] { force = grasp.acting(0) + grasp.acting(1); };
     const Timing timing = run(grasp, milliseconds(200), {});
     if (testing::kSanitized) return;

@@ -1,5 +1,5 @@
-// Tests that the torque of a tool that is stopped equals that of simulated devices, through fakes
-// of the manufacturers' libraries with the simulated hand behind them.
+// Tests that the torque of a stopped tool equals that of simulated devices, using fakes of the
+// manufacturers' libraries that are held by the simulated hand.
 #include <gtest/gtest.h>
 
 #include "devices/test/fakes.h"
@@ -11,11 +11,11 @@ namespace {
 
 struct Turned {
     frame::Frame last;             ///< after 1.5 s
-    Vec3 acting_D = Vec3::Zero();  ///< torque of the fake's device on the hand at that time [N*m]
-    double peak = 0;               ///< peak torque that the device states [N*m]
+    Vec3 acting_D = Vec3::Zero();  ///< torque that the fake's device then exerts on the hand [N*m]
+    double peak = 0;               ///< peak torque stated by the device [N*m]
 };
 
-/// Turns the bar with a device of `backend`: simulated or a manufacturer's.
+/// Turns the bar using a device of `backend`, which is either simulated or a manufacturer's.
 Turned turn_the_bar(const std::string& backend, const Pose& X_WD) {
     const hand::HandSpec hand = turning_hand(0.2);
     const hand::ScriptDriver driver(hand, {"hand"});

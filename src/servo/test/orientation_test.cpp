@@ -1,5 +1,5 @@
-// Tests devices that measure orientation and render torque: their use in the tick, and that every
-// safety rule applies to torque as to force.
+// Tests devices that measure orientation and render torque: how the tick uses them, and that every
+// safety rule for force also applies to torque.
 #include <gtest/gtest.h>
 
 #include "planted_group.h"
@@ -58,7 +58,7 @@ TEST(Orientation, AToolThatIsStoppedIsFeltAsATorqueWhereverTheDeviceStands) {
         EXPECT_EQ(guard.count(), 0u);
         EXPECT_EQ(frame.status, 0u);
         const frame::TurnFrame& turn = frame.turns.at(0);
-        // 1 N*m/rad of the hand and the same of the coupling, in series, over 0.2 rad
+        // the hand's 1 N*m/rad and the coupling's 1 N*m/rad, in series, turned by 0.2 rad
         EXPECT_NEAR(turn.t_sent_W.y(), -0.1, 1e-4);
         EXPECT_EQ(turn.t_sent_W, turn.t_asked_W);
         EXPECT_LT((rotation_vector(turn.R_WH) - Vec3(0, 0.1, 0)).norm(), 1e-4);
@@ -110,7 +110,7 @@ TEST(Orientation, TorqueHeldTooLongFallsToTheContinuousOne) {
 
 TEST(Orientation, TorqueChangesNoFasterThanAllowed) {
     frame::Settings settings;
-    settings.safety.max_torque_rate = 0.2;  // the hand turns into the stops at 0.9 N*m/s
+    settings.safety.max_torque_rate = 0.2;  // without the limit, torque would rise by 0.9 N*m/s
     Session session(0.2, settings);
     double last = 0;
     uint32_t status = 0;
@@ -187,7 +187,7 @@ TEST(Orientation, TheOperatorEndsTorqueToo) {
 }
 
 TEST(Orientation, IsWatchedByTheEnergyGuard) {
-    // a coupling that feeds the hand's swing instead of damping it, compared with a sound one
+    // a coupling that feeds the hand's oscillation instead of damping it, compared with a sound one
     frame::Settings settings;
     Session sound(0.3, settings);
     uint32_t status = 0;

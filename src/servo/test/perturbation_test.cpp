@@ -1,4 +1,4 @@
-// Compares perturbations ordered by a director with closed forms.
+// Compares the effects of perturbations ordered by a director with closed-form solutions.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -15,7 +15,7 @@ namespace {
 constexpr double kMass = 0.2;
 constexpr double kTick = 1e-3;
 
-/// A finger far from a block that floats or lies on a plane.
+/// A finger far away from a block that floats or lies on a plane.
 struct Desk {
     scene::Scene scene;
     std::unique_ptr<hand::ScriptDriver> driver;
@@ -95,7 +95,7 @@ TEST(Perturbation, DirectionalMassIsFeltAlongEachAxisAndTheWeightStays) {
     const Vec3 scale(3, 0.5, 2);
     const Vec3 force(0.3, -0.2, 0.4);
     Vec3 v = Vec3::Zero();
-    // in free fall, above the plane
+    // places the block in free fall, above the plane
     desk.tick([](const frame::Frame&, frame::Commands& c) {
         add(c.task.placements, {1, {Quat::Identity(), {0, 0, 1}}});
     });
@@ -109,18 +109,18 @@ TEST(Perturbation, DirectionalMassIsFeltAlongEachAxisAndTheWeightStays) {
         EXPECT_LT((frame.bodies[1].v_WB - v).norm(), 1e-12);
         EXPECT_LT(frame.bodies[1].w_WB.norm(), 1e-12);
     }
-    // without an order the properties are the scene's again
+    // without an order, the properties are those of the scene again
     const Vec3 before = desk.servo->world().state({1}).v_WB;
     const Vec3 after = desk.tick().bodies[1].v_WB;
     EXPECT_LT((after - before - kTick * desk.scene.gravity).norm(), 1e-12);
 }
 
 TEST(Perturbation, FrictionOfAFixedBodyWakesWhatRestsOnItAndLetsItSlide) {
-    // a = (F - mu' m g) / m, with the plane's coefficient halved
+    // a = (F - mu' m g) / m, where mu' uses half the plane's coefficient
     Desk desk(true, 0.5);
     for (int i = 0; i < 1000; ++i) desk.tick();
     EXPECT_EQ(desk.tick().bodies[1].awake, 0);
-    const double force = 0.8;  // too little to overcome the whole friction
+    const double force = 0.8;  // too little to overcome the full friction
     frame::PropertiesFrame slippery;
     slippery.body = 0;
     slippery.friction_scale = 0.5;
@@ -138,7 +138,7 @@ TEST(Perturbation, FrictionOfAFixedBodyWakesWhatRestsOnItAndLetsItSlide) {
         EXPECT_NEAR(frame.bodies[1].v_WB.x(), v, 2e-5) << i;
     }
     EXPECT_GT(v, 0.3);
-    for (int i = 0; i < 1000; ++i) {  // without an order the plane is as in the scene
+    for (int i = 0; i < 1000; ++i) {  // without an order, the plane is as in the scene
         desk.tick([&](const frame::Frame&, frame::Commands& c) {
             add(c.task.loads, {1, {force, 0, 0}, Vec3::Zero()});
         });
@@ -316,7 +316,7 @@ TEST_P(AnySolver, SlidesABlockUnderScaledFriction) {
     Desk desk(true, 0.5, Vec3::Zero(), settings());
     for (int i = 0; i < 700; ++i) desk.tick();
     ASSERT_EQ(desk.tick().bodies[1].awake, 0u);
-    // at a friction scale of 0.7 the block withstands 0.6 N, at 0.2 it does not
+    // the block withstands 0.6 N with a friction scale of 0.7, but not with 0.2
     const auto pulled = [&](double scale) {
         return desk.tick([&](const frame::Frame&, frame::Commands& c) {
             c.knobs.friction_scale = scale;
@@ -336,7 +336,7 @@ TEST(Perturbation, ScaledFrictionIsThatOfEveryProxy) {
             frame::Settings settings;
             if (point) settings.proxy.kind = scene::ProxyKind::point;
             settings.proxy.friction = friction;
-            // the target goes down into the plane, and along it
+            // the target moves down into the plane, then along it
             Desk desk(true, 0.5, {0.2, 0, -0.115}, settings);
             const double mu = scene::pair_friction(desk.scene, "plane", 0.5, "index",
                                                    desk.scene.fingers[0].friction);

@@ -1,4 +1,4 @@
-// A grasp with devices whose readings a test can plant (planted_group.h).
+// A grasp with devices whose readings a test can replace (planted_group.h).
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace dihaptic::servo {
 
-/// Two fingers that close on a block within 0.3 s, and lift it.
+/// Two fingers that close on a block within 0.3 s and lift it.
 struct PlantedGrasp {
     hand::HandSpec hand = lifting_hand();
     std::unique_ptr<hand::ScriptDriver> driver;

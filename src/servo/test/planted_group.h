@@ -1,4 +1,4 @@
-// Wraps another group of devices so that a test can plant readings and see the forces sent.
+// Wraps another group of devices so that a test can replace readings and inspect the forces sent.
 #pragma once
 
 #include <algorithm>
@@ -11,18 +11,18 @@ namespace dihaptic::servo {
 
 class PlantedGroup : public devices::DeviceGroup {
   public:
-    /// `simulated`: whether the devices count as simulated; for real ones a pause of the loop
-    /// is a fault.
+    /// `simulated` states whether the devices count as simulated; with real devices, a pause of the
+    /// loop is a fault.
     PlantedGroup(std::unique_ptr<devices::DeviceGroup> inner, bool simulated)
         : DeviceGroup(infos(*inner, simulated)),
           told(static_cast<size_t>(inner->size())),
           inner_(std::move(inner)) {}
 
-    std::function<void(std::span<devices::Reading>)> plant;  ///< may change the readings
-    std::vector<Wrench> told;  ///< last wrenches sent, in each device's D
+    std::function<void(std::span<devices::Reading>)> plant;  ///< may change the readings of a tick
+    std::vector<Wrench> told;  ///< wrenches sent last, in each device's frame D
     bool fails = false;        ///< whether the next activation fails
 
-    /// Largest force sent [N]; NaN if any is not a number.
+    /// Largest force sent last [N]; NaN if any force is not a number.
     double largest_told() const {
         double out = 0;
         for (const Wrench& wrench : told) {

@@ -1,5 +1,5 @@
-// Tests that a tick only computes: no lock, no exception, no system call, with each
-// solver, each kind of proxy and each coupling.
+// Tests that a tick does nothing but compute: it must take no lock, throw no exception and make no
+// system call, with each solver, each kind of proxy and each coupling.
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -44,7 +44,7 @@ frame::Settings settings_of(const Case& c) {
     return out;
 }
 
-/// The ticks of a whole grasp: in the air, touching, lifting, holding.
+/// Runs the ticks of a whole grasp: fingers in the air, touching, lifting, holding.
 void grasp(PlantedGrasp& fingers, const frame::Director& director = {}) {
     for (int i = 0; i < 900; ++i) fingers.tick(director);
 }

@@ -18,13 +18,13 @@ TEST(Pace, KeepsPhaseAndLeavesOutWhatALateTickMissed) {
     pace.end_tick(Time(5400));
     EXPECT_EQ(pace.due, Time(6000));
     EXPECT_FALSE(pace.late);
-    pace.end_tick(Time(7000));  // exactly at the next deadline: not late yet
+    pace.end_tick(Time(7000));  // ends exactly at the next deadline: not late yet
     EXPECT_EQ(pace.due, Time(7000));
     EXPECT_EQ(pace.overruns, 0);
     pace.end_tick(Time(8001));
     EXPECT_EQ(pace.due, Time(9000));
     EXPECT_TRUE(pace.late);
-    pace.end_tick(Time(13500));  // three missed: one overrun
+    pace.end_tick(Time(13500));  // misses three deadlines: one overrun
     EXPECT_EQ(pace.due, Time(14000));
     EXPECT_TRUE(pace.late);
     EXPECT_EQ(pace.overruns, 2);
@@ -44,7 +44,7 @@ TEST(RealTime, SaysWhatWasRefusedAndHowToAllowIt) {
               "dihaptic doctor explains how to start a container with these permissions");
 }
 
-/// The message for a process without any permission.
+/// Returns the message that a process without any permissions receives.
 std::string told_without_permission() {
     int ends[2];
     if (pipe(ends) != 0) return "no pipe";
@@ -53,7 +53,7 @@ std::string told_without_permission() {
         const rlimit none{0, 0};
         setrlimit(RLIMIT_RTPRIO, &none);
         setrlimit(RLIMIT_MEMLOCK, &none);
-        // root is granted everything anyway, so drop root
+        // root is granted everything, so drop root privileges
         if (geteuid() == 0 && setuid(65534) != 0) _exit(1);
         const std::string told = describe(try_real_time(80), 80);
         const auto written = write(ends[1], told.data(), told.size());
@@ -73,7 +73,7 @@ std::string told_without_permission() {
 TEST(RealTime, RunsWithoutPermissionAndTellsInOneLine) {
     const std::string told = told_without_permission();
     EXPECT_EQ(told.rfind("real time: Linux refused priority 80 (EPERM)", 0), 0u) << told;
-#ifndef DIHAPTIC_SANITIZED  // sanitizers, whose memory is vast, do not really lock it
+#ifndef DIHAPTIC_SANITIZED  // sanitizers need so much memory that they do not really lock it
     EXPECT_NE(told.find("locked memory (EPERM)"), std::string::npos) << told;
 #endif
     EXPECT_NE(told.find("dihaptic doctor gives the commands"), std::string::npos) << told;

@@ -7,7 +7,7 @@
 namespace dihaptic::servo::resume_test {
 namespace {
 
-/// A reason for force to end, and the planted event that produces it.
+/// A reason why force ends, and the event that a test causes to produce it.
 struct Cause {
     const char* name;
     haptics::FaultKind kind;
@@ -35,8 +35,8 @@ void expect_soft_beginning(PlantedGrasp& grasp) {
             ASSERT_EQ(grasp.told(), 0);
         }
         if (grasp.told() == 0) continue;
-        // a fraction of the requested force, without a step: a hundredth of 8.5 N is more than any
-        // tick adds
+        // force ramps up as a fraction of the request, without a step: 1 % of 8.5 N is more than
+        // any tick adds
         const double share = std::min(1.0, i * 1e-3 / soft_start);
         const double asked =
             std::max(frame.fingers[0].f_asked_W.norm(), frame.fingers[1].f_asked_W.norm());
@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
                   g.tick([](const frame::Frame&, std::span<const frame::Handle>,
                             frame::Commands& commands) {
                       frame::LoadFrame load;
-                      load.body = 2;  // the first finger's proxy, so the load is a force field
+                      load.body = 2;  // proxy of the first finger, so the load is a force field
                       load.force_W.x() = kUnmeasured;
                       commands.task.loads.push_back(load);
                   });

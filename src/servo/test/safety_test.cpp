@@ -1,4 +1,4 @@
-// Tests each safety rule in the whole servo: what triggers it, and the force on the hand
+// Tests each safety rule in the complete servo: what triggers the rule, and the force on the hand
 // afterwards.
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ struct Session {
     std::unique_ptr<hand::ScriptDriver> driver;
     PlantedGroup* devices = nullptr;
     std::unique_ptr<Servo> servo;
-    uint32_t buttons = 0;  ///< of the first device
+    uint32_t buttons = 0;  ///< buttons of the first device
     int next = 0;
 
     Session(const scene::Scene& scene, const hand::HandSpec& hand, const frame::Settings& settings,
@@ -45,8 +45,8 @@ struct Session {
     }
 };
 
-/// One finger and a fixed wall at x = 0, solid beyond; pressing_hand(start, end) moves the face of
-/// the finger's pad from `start` to `end` in 0.4 s.
+/// Returns a scene with one finger and a wall that fills all of space beyond x = 0.
+/// pressing_hand(start, end) moves the face of the finger's pad from `start` to `end` in 0.4 s.
 scene::Scene wall() {
     scene::Scene out;
     scene::Body wall;
@@ -73,7 +73,7 @@ hand::HandSpec pressing_hand(double start, double end) {
 TEST(Safety, AForceHeldTooLongFallsToTheContinuousOneSmoothly) {
     frame::Settings settings;
     settings.safety.heating_time = 1;
-    // 10 mm through 300 and 1000 N/m in series are 2.3 N, which then falls to 1.4 N
+    // 10 mm through springs of 300 and 1000 N/m in series give 2.3 N, which then falls to 1.4 N
     Session session(wall(), pressing_hand(-0.01, 0.01), settings,
                     "continuous_force_N: 1.4\nworkspace_mm: [500, 500, 500]\n");
     uint32_t status = 0;
@@ -82,7 +82,7 @@ TEST(Safety, AForceHeldTooLongFallsToTheContinuousOneSmoothly) {
         const frame::Frame& frame = session.tick();
         const double force = frame.fingers[0].f_sent_W.norm();
         peak = std::max(peak, force);
-        // no abrupt cut: (f^2 - f_c^2) f_p^2 / (2 f f_c^2 tau), 27 N/s at 2.3 N
+        // force must not be cut abruptly: (f^2 - f_c^2) f_p^2 / (2 f f_c^2 tau) is 27 N/s at 2.3 N
         if (i > 400) {
             EXPECT_LT(std::abs(force - last), 0.03) << i;
         }
@@ -98,7 +98,7 @@ TEST(Safety, AForceHeldTooLongFallsToTheContinuousOneSmoothly) {
 TEST(Safety, AHandThatLeavesTheWorkspaceIsPushedBack) {
     scene::Scene scene = wall();
     scene.bodies[0].position.x() += 10;
-    // the box ends at x = 50 mm; the hand's target is 30 mm beyond, shared by springs of 300 and
+    // the box ends at x = 50 mm; the hand's target is 30 mm further, shared by springs of 300 and
     // 500 N/m
     Session session(scene, pressing_hand(0.0025, 0.0825), {}, "workspace_mm: [100, 500, 500]\n");
     const frame::Frame* frame = nullptr;
@@ -117,7 +117,7 @@ TEST(Safety, AHandThatLeavesTheWorkspaceIsPushedBack) {
     EXPECT_NEAR(frame->fingers[0].f_sent_W.x(), -500 * depth, 1e-2);
 }
 
-/// Largest speed of a hand that starts 5 mm inside a wall and is thrown out [m/s].
+/// Returns the largest speed of a hand that starts 5 mm inside a wall and is thrown out [m/s].
 double thrown_at(double soft_start, uint32_t& status) {
     frame::Settings settings;
     settings.safety.soft_start = soft_start;
@@ -177,7 +177,7 @@ TEST(Safety, ForceIsOnOnlyWhileTheDeadManSwitchIsHeld) {
         if (i == 499) {
             ASSERT_GT(force.norm(), 0.5);
         }
-        if (i >= 600 && i < 1000) {  // rises from zero by a five-hundredth per tick
+        if (i >= 600 && i < 1000) {  // rises from zero by 1/500 of the force per tick
             const double share = (i - 600) / 500.0;
             ASSERT_NEAR((force - share * frame.fingers[0].f_asked_W).norm(), 0, 1e-9) << i;
             ASSERT_NE(frame.status & kSoftStarted, 0u) << i;
@@ -225,7 +225,7 @@ TEST(Safety, AFaultEndsTheRunASecondLater) {
 
 // ---- energy guard -----------------------------------------------------------------------------
 
-/// A hand that grips, lifts, tosses and catches a block, and pushes it along the table.
+/// Returns a hand that grips, lifts, tosses and catches a block, and pushes it along the table.
 hand::HandSpec busy_hand() {
     hand::HandSpec out;
     out.centre = {0, 0, 0.02};
@@ -297,7 +297,7 @@ TEST_P(SoundCoupling, GivesNobodyEnergyInGraspLiftTossPushAndSlap) {
 TEST_P(SoundCoupling, IsSeenWhenItsDampingTurnsNegative) {
     frame::Settings active = settings();
     active.coupling.damping = -5;
-    // an apart point has only the mass h c + h^2 k in the step: no mass with a negative damper
+    // an apart point has only the mass h c + h^2 k in the step, which a negative damper takes away
     active.proxy.friction = frame::PointFriction::apart;
     // fingers heavy enough for the implicit coupling: m + h c + h^2 k stays positive
     scene::Scene scene = block_on_table();
@@ -325,15 +325,15 @@ INSTANTIATE_TEST_SUITE_P(
                                 kPremium, frame::PointFriction::apart}));
 
 TEST(EnergyGuard, TellsThatSlowDynamicsFindAFastHandLate) {
-    // a world that steps every 10 ms is calm in a grasp; at 0.6 m/s a wall is detected up to 6 mm
-    // late, and the energy of this depth is given back: at most k / 2 (6 mm)^2 = 36 mJ
+    // with steps of 10 ms, a grasp is calm; at 0.6 m/s, a wall is detected up to 6 mm late, and the
+    // energy of this penetration is given back: at most k / 2 (6 mm)^2 = 36 mJ
     frame::Settings settings;
     settings.dynamics.every = 10;
     const Energy grasp = observe(block_on_table(), lifting_hand(), settings);
     EXPECT_EQ(grasp.status & kEnergyGenerated, 0u);
     settings.coupling.stiffness = 2000;
     double most = 0;
-    for (int late = 0; late < 10; ++late) {  // ticks from a step of the world to the touch
+    for (int late = 0; late < 10; ++late) {  // ticks between a step of the world and the contact
         const double start = -0.06 - late * 0.6e-3;
         hand::HandSpec slap = pressing_hand(start, start);
         slap.script = {{"slap", 0.15, {}, {0.09, 0, 0}, true},
@@ -347,7 +347,7 @@ TEST(EnergyGuard, TellsThatSlowDynamicsFindAFastHandLate) {
 }
 
 TEST(EnergyGuard, TamesACouplingThatWouldShakeTheHand) {
-    // the hand has 3 N*s/m: with -5 the handle shakes more and more, until it leaves the wall
+    // the hand has 3 N*s/m; with -5, the handle shakes more and more until it leaves the wall
     frame::Settings settings;
     settings.proxy.kind = scene::ProxyKind::point;
     settings.proxy.friction = frame::PointFriction::apart;

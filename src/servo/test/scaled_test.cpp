@@ -1,4 +1,5 @@
-// Tests a rig with a scaled workspace: a wall of the scene as felt by the hand, and in the world.
+// Tests a rig with a scaled workspace: how a wall in the scene feels to the hand, and where it is
+// in the world.
 #include <gtest/gtest.h>
 
 #include "lift.h"
@@ -8,9 +9,9 @@
 namespace dihaptic::servo::scaled_test {
 namespace {
 
-constexpr double kStiffness = 800;  // stiffness of the coupling, and so of the wall [N/m]
+constexpr double kStiffness = 800;  // stiffness of the coupling, and therefore of the wall [N/m]
 
-/// A finger that presses on a table with its target below it.
+/// A finger that presses on a table because its target is below the table's surface.
 class PressDriver final : public hand::Driver {
   public:
     explicit PressDriver(double depth) : depth_(depth) {}
@@ -19,7 +20,7 @@ class PressDriver final : public hand::Driver {
 
   private:
     hand::FingerTarget do_target(int, double t) const noexcept override {
-        // from above, slowly
+        // approaches slowly, from above
         const double z = 0.02 - (0.02 + depth_) * std::min(1.0, t);
         return {{0.01, 0.02, z}, {0, 0, t < 1 ? -(0.02 + depth_) : 0}};
     }
@@ -27,11 +28,11 @@ class PressDriver final : public hand::Driver {
     std::vector<Phase> phases_;
 };
 
-/// The hand's rest position, and the force on it there.
+/// The hand's position at rest, and the force on it there.
 struct Rest {
     double world_depth = 0;  // depth of the handle below the proxy, in the world [m]
     double world_force = 0;  // [N]
-    double hand_depth = 0;   // depth of the hand's own movement [m]
+    double hand_depth = 0;   // depth in terms of the hand's own movement [m]
     double hand_force = 0;   // force of the hand's spring [N]
     uint32_t status = 0;
 };
@@ -47,7 +48,7 @@ Rest press(double scale, const frame::Settings& given = {}) {
     rig.devices[0].scale = scale;
     rig.devices[0].position = {0.05, -0.1, 0.15};
     rig.devices[0].rotation = {0.5, 0.2, 1.1};
-    // in the world, where the hand's movement is scaled; the finger touches at z = 10 mm
+    // positions in the world, where the hand's movement is scaled; the finger touches at z = 10 mm
     const PressDriver driver(0.02 * scale - 0.01);
     devices::Context context;
     context.driver = &driver;
@@ -66,7 +67,7 @@ Rest press(double scale, const frame::Settings& given = {}) {
     out.status = status;
     out.world_force = f.f_sent_W.z();
     out.world_depth = f.p_WP.z() - f.p_WH.z();
-    // positions of the hand itself: the readings are s times as far from D's origin
+    // the hand's own positions: the readings are s times as far from the origin of D
     const Vec3 origin = rig.devices[0].position;
     const Vec3 hand = origin + (f.p_WH - origin) / scale;
     const Vec3 surface = origin + (f.p_WP - origin) / scale;
@@ -85,7 +86,7 @@ TEST(ScaledRig, WallIsAsStiffUnderTheHandAndInTheWorldAsTheSceneSays) {
         EXPECT_NEAR(rest.hand_force / rest.hand_depth, kStiffness, 0.01 * kStiffness) << scale;
         // the hand feels the world's force divided by the scale
         EXPECT_NEAR(rest.hand_force * scale / rest.world_force, 1, 0.01);
-        // the hand cannot detect the scale
+        // the person cannot feel that there is a scale
         EXPECT_NEAR(rest.hand_force / plain.hand_force, 1, 0.01);
         EXPECT_NEAR(rest.hand_depth / plain.hand_depth, 1, 0.01);
         EXPECT_EQ(rest.status & (kEnergyGenerated | kForceLimited | kTooFast), 0U);

@@ -14,7 +14,7 @@
 namespace dihaptic::servo::servo_test {
 namespace {
 
-/// Two fingers that close on a block on a table, and lift it.
+/// Two fingers that close on a block on a table and lift it.
 struct Grasp {
     scene::Scene scene = block_on_table();
     hand::HandSpec hand = lifting_hand();
@@ -56,7 +56,7 @@ struct Grasp {
     }
 };
 
-/// The fingers sag by half the weight through 300 and 1000 N/m in series.
+/// The fingers are lower by half the weight divided by the stiffness of 300 and 1000 N/m in series.
 constexpr double kLiftedHeight = 0.07 - 0.1 * 9.81 / 2 / (300.0 * 1000 / 1300);
 
 class TwoPoints : public ::testing::TestWithParam<frame::PointFriction> {
@@ -78,8 +78,8 @@ TEST_P(TwoPoints, LiftABlockAndMeasureTheGrasp) {
     double momentum = 0;
     Vec3 impulse = Vec3::Zero();
     const frame::Frame& frame = grasp.run(0, 1.1, [&](const frame::Frame& f) {
-        // the block gets the same force as the hands (for apart points, one step later), equal from
-        // both sides
+        // the block receives the same force as the hands (one step later for apart points), equal
+        // from both sides
         momentum = f.bodies[1].v_WB.x() * 0.1;
         if (apart()) {
             EXPECT_NEAR(impulse.x(), momentum, 1e-6);
@@ -94,7 +94,7 @@ TEST_P(TwoPoints, LiftABlockAndMeasureTheGrasp) {
     });
     EXPECT_EQ(frame.status, 0u);
     EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), kLiftedHeight, 1e-4);
-    // without the pads' thickness, the targets are 5 mm beyond contact
+    // points lack the pads' thickness, so the targets are 5 mm beyond contact
     EXPECT_NEAR(frame.grip_force / (0.005 * 300 * 1000 / 1300), 1, 0.01);
     EXPECT_NEAR(frame.load_force / (0.1 * 9.81), 1, 0.01);
     ASSERT_EQ(frame.contacts.size(), 2u);
@@ -117,17 +117,17 @@ TEST(Servo, LiftsABlockAndMeasuresTheGrasp) {
     const frame::Frame& frame = grasp.run(0, 1.1);
     EXPECT_EQ(frame.status, 0u);
     EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), kLiftedHeight, 1e-4);
-    // targets 7.5 mm beyond contact, through 300 and 1000 N/m in series
+    // the targets are 7.5 mm beyond contact, through 300 and 1000 N/m in series
     EXPECT_NEAR(frame.grip_force / (0.0075 * 300 * 1000 / 1300), 1, 0.01);
     EXPECT_NEAR(frame.load_force / (0.1 * 9.81), 1, 0.01);
     EXPECT_NEAR(-frame.fingers[0].f_sent_W.z() - frame.fingers[1].f_sent_W.z(), 0.1 * 9.81, 0.01);
     EXPECT_NEAR(frame.fingers[0].f_sent_W.x(), -frame.grip_force, 1e-2);
-    EXPECT_EQ(frame.contacts.size(), 2u);  // one for each finger: the block has left the table
+    EXPECT_EQ(frame.contacts.size(), 2u);  // one contact per finger: the block has left the table
     EXPECT_EQ(frame.contacts[0].points, 4);
 }
 
 TEST(Servo, TheForceWrittenBelongsToThePositionRead) {
-    // pressing a wall at speed: the force of a tick is that of the tick's own depth
+    // pressing a wall at speed: the force of each tick must match the depth in that same tick
     Grasp grasp;
     grasp.run(0, 0.25, [](const frame::Frame& frame) {
         const frame::FingerFrame& thumb = frame.fingers[0];
@@ -140,7 +140,7 @@ TEST(Servo, TheForceWrittenBelongsToThePositionRead) {
 
 TEST(Servo, IsTheSameWhereverTheDevicesStand) {
     Grasp here;
-    Grasp there;  // the second device is turned, so compare the fingers with each other
+    Grasp there;  // the second device is turned, so the fingers are compared with each other
     const frame::Frame& frame = here.run(0, 1.1);
     EXPECT_NEAR(frame.fingers[0].f_sent_W.x(), -frame.fingers[1].f_sent_W.x(), 1e-6);
     EXPECT_NEAR(frame.fingers[0].f_sent_W.z(), frame.fingers[1].f_sent_W.z(), 1e-6);
@@ -277,7 +277,7 @@ TEST(Servo, LoadsOfTheDirectorActOnBodies) {
     EXPECT_NEAR(frame.bodies[1].v_WB.z(), 9.81 * 0.101, 1e-6);
 }
 
-/// Settings with proxies that may change between rigid bodies and points.
+/// Settings that allow proxies to change between rigid bodies and points.
 class Changeable : public ::testing::TestWithParam<frame::PointFriction> {
   protected:
     frame::Settings settings;
@@ -293,7 +293,7 @@ INSTANTIATE_TEST_SUITE_P(Servo, Changeable,
 
 TEST_P(Changeable, ProxiesAreAsIfTheyHadAlwaysBeenOfTheirKind) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
-    // the kind of proxy, and whether it results from a change
+    // `kind` is the kind of proxy; `changed` is whether it results from a change
     const auto lift = [&](scene::ProxyKind kind, bool changed) {
         frame::Settings own = settings;
         const auto other =
@@ -323,7 +323,7 @@ TEST_P(Changeable, ProxiesAreAsIfTheyHadAlwaysBeenOfTheirKind) {
 TEST_P(Changeable, ProxiesPassThroughNothingAndHoldNothingBackAsTheyChangeToAndFro) {
     Grasp grasp(settings);
     double most = 0;
-    for (int i = 0; i < 100; ++i) {  // in the air, before the fingers close
+    for (int i = 0; i < 100; ++i) {  // the fingers are in the air, before closing
         const frame::Director order = [&](const frame::Frame&, std::span<const frame::Handle>,
                                           frame::Commands& commands) {
             commands.knobs.proxy =
@@ -334,7 +334,7 @@ TEST_P(Changeable, ProxiesPassThroughNothingAndHoldNothingBackAsTheyChangeToAndF
             most = std::max(most, finger.f_sent_W.norm());
             EXPECT_LT((finger.p_WP - finger.p_WH).norm(), 1e-3);
         }
-        EXPECT_TRUE(frame.contacts.size() <= 8);  // at most the block's own
+        EXPECT_TRUE(frame.contacts.size() <= 8);  // no more than the block's own contacts
     }
     EXPECT_LT(most, 0.1);
 }
@@ -358,8 +358,7 @@ TEST(Run, VirtualTimeStopsWhenToldAndCountsTicks) {
 }
 
 TEST(Servo, HoldsTheSameGraspAtEveryRate) {
-    // the hand feels statics only, whatever the rate: the block's weight, and the two springs in
-    // series
+    // whatever the rate, the hand feels only statics: the block's weight, and two springs in series
     for (const double rate : {1000.0, 2000.0, 4000.0}) {
         frame::Settings settings;
         settings.rate = rate;
@@ -381,7 +380,7 @@ TEST(Servo, HoldsTheSameGraspAtEveryRate) {
 }
 
 TEST(Servo, FreeFallIsTheSameAtEveryRate) {
-    // in semi-implicit steps h a body falls exactly g t (t + h) / 2
+    // with semi-implicit steps of h, a body falls exactly g t (t + h) / 2
     for (const double rate : {1000.0, 2000.0, 4000.0}) {
         frame::Settings settings;
         settings.rate = rate;
@@ -424,7 +423,7 @@ TEST(Run, RealTimeKeepsPhaseAfterAnOverrun) {
     EXPECT_GE(seen[51].frame.time - seen[50].frame.time, std::chrono::milliseconds(21));
     EXPECT_TRUE(seen[51].frame.status & kOverrun);
     int64_t recorded = 0;
-    // time was zero at this moment, or earlier by the duration of the quickest tick
+    // time was zero at this moment, or earlier by at most the duration of the fastest tick
     auto zero = seen.front().ended - seen.front().frame.time;
     for (const Seen& s : seen) zero = std::min(zero, s.ended - s.frame.time);
     for (size_t i = 0; i < seen.size(); ++i) {
@@ -437,7 +436,7 @@ TEST(Run, RealTimeKeepsPhaseAfterAnOverrun) {
         EXPECT_EQ((frame.status & kOverrun) != 0,
                   frame.time - seen[i - 1].frame.time > grasp.servo->period());
     }
-    // there is no frame in which the overrun of the last tick could be recorded
+    // no frame follows in which an overrun of the last tick could be recorded
     EXPECT_LE(timing.overruns - recorded, 1);
     EXPECT_EQ(timing.ticks.count(), seen.size());
     EXPECT_EQ(timing.lateness.count(), seen.size());
@@ -450,7 +449,7 @@ TEST(Run, RealTimeAllocatesNothing) {
     const std::atomic<bool> stop{false};
     Timing timing;
     timing.reserve(1000);
-    std::optional<testing::AllocationGuard> guard;  // counts only in the thread that makes it
+    std::optional<testing::AllocationGuard> guard;  // counts only in the thread that creates it
     size_t count = 1;
     run_real(
         *grasp.servo, {},
@@ -468,7 +467,7 @@ TEST(Run, RealTimeAllocatesNothing) {
     EXPECT_GE(timing.overruns, 1);
 }
 
-/// Simulated devices that call the tick themselves, every 2 ms, from a thread of their own.
+/// Simulated devices that call the tick themselves, every 2 ms, from their own thread.
 class PacingGroup final : public PlantedGroup {
   public:
     using PlantedGroup::PlantedGroup;

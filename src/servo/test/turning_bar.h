@@ -1,4 +1,4 @@
-// A bar along x between two stops, and a hand that turns it about y against them.
+// A bar along x between two stops, and a hand that turns the bar about y, against the stops.
 #pragma once
 
 #include "hand/script.h"
@@ -6,7 +6,7 @@
 
 namespace dihaptic::servo {
 
-/// The scene; the bar is the shape of the finger "hand".
+/// Returns the scene. The bar is the shape of the finger "hand".
 inline scene::Scene turning_bar() {
     scene::Scene out = haptics::stops();
     scene::Finger bar;
@@ -16,7 +16,7 @@ inline scene::Scene turning_bar() {
     return out;
 }
 
-/// A hand that turns by `turn` [rad] in 0.4 s.
+/// Returns a hand that turns by `turn` [rad] in 0.4 s.
 inline hand::HandSpec turning_hand(double turn) {
     hand::HandSpec spec;
     hand::ScriptStep step;

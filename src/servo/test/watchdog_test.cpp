@@ -34,10 +34,10 @@ TEST(Watchdog, StopsOnceFromAThreadOfItsOwn) {
         milliseconds(30), [&] { stopper.set_value(std::this_thread::get_id()); }, [] {});
     EXPECT_NE(stopper.get_future().get(), std::this_thread::get_id());
     EXPECT_GE(Watchdog::Clock::now() - begin, milliseconds(30));
-    std::this_thread::sleep_for(milliseconds(50));  // a second call would throw
+    std::this_thread::sleep_for(milliseconds(50));  // a second stop would throw
 }
 
-/// The situation after SIGSTOP and SIGCONT, when both deadlines are long past.
+/// Tests the situation after SIGSTOP and SIGCONT, in which both deadlines have long passed.
 TEST(Watchdog, GivesAProgramThatStoodStillTheTimeToEndATick) {
     std::promise<void> stopped;
     std::atomic<bool> stuck{false};
@@ -52,8 +52,8 @@ TEST(Watchdog, GivesAProgramThatStoodStillTheTimeToEndATick) {
     EXPECT_FALSE(stuck);
 }
 
-/// A servo that spins on the only processor that it and its watchdog may use. With only the servo's
-/// priority, the watchdog would wait forever.
+/// Tests a servo that spins on the only processor that it and its watchdog may use. If both had the
+/// same priority, the watchdog would wait for ever.
 TEST(Watchdog, StopsAServoThatSpinsOnTheOnlyProcessor) {
     std::atomic<bool> stopped{false};
     int refused = 0;
@@ -69,7 +69,7 @@ TEST(Watchdog, StopsAServoThatSpinsOnTheOnlyProcessor) {
         if (refused != 0) return;
         Watchdog watchdog(
             milliseconds(30), [&] { stopped = true; }, [] {});
-        // the kernel takes real-time threads off a processor after 950 ms of each second
+        // the kernel stops real-time threads after 950 ms of each second
         const auto begin = Watchdog::Clock::now();
         const auto spun = [&] {
             return std::chrono::duration<double>(Watchdog::Clock::now() - begin).count();
@@ -86,7 +86,7 @@ TEST(Watchdog, StopsAServoThatSpinsOnTheOnlyProcessor) {
     EXPECT_LT(took, 0.4);
 }
 
-/// A device whose write blocks at the `tick`th tick, until it is stopped or released.
+/// A device whose write call blocks in tick number `tick` until the device is stopped or released.
 class BlockingGroup final : public devices::DeviceGroup {
   public:
     BlockingGroup(int tick, bool can_stop, bool simulated)
@@ -158,13 +158,13 @@ TEST(WatchdogInRealTime, StopsDevicesThatBlockAndTheRunEndsWithAFault) {
     EXPECT_TRUE(blocked.timing.stall->stopped);
     EXPECT_NE(describe(*blocked.timing.stall).find("the watchdog switched the devices' force off"),
               std::string::npos);
-    // the tick after the blocked one is late by its own clock, as in a replay
+    // by its own clock, the tick after the blocked one is late, as in a replay
     EXPECT_EQ(blocked.servo->fault().kind, haptics::FaultKind::late);
     EXPECT_GT(blocked.servo->fault().value, frame::Settings{}.safety.max_pause);
-    EXPECT_LT(blocked.timing.reached, std::chrono::seconds(3));  // one second after the fault
+    EXPECT_LT(blocked.timing.reached, std::chrono::seconds(3));  // i.e. one second after the fault
 }
 
-/// No fault reports the stop in this case: the tick was the last before a pause.
+/// Tests a stop that no fault reports, because the tick was the last one before a pause.
 TEST(Watchdog, WhatItStoppedBeginsAnewAfterAPause) {
     Blocked blocked(true);
     blocked.servo->resume();
@@ -204,7 +204,7 @@ TEST(WatchdogInRealTime, SaysWhenTheLoopIsStuckForGood) {
         EXPECT_FALSE(stall.stopped);
         EXPECT_NE(describe(stall).find("could not switch the devices' force off"),
                   std::string::npos);
-        blocked.devices->let_go();  // the program would end here
+        blocked.devices->let_go();  // a real program would end here
     });
     EXPECT_EQ(told, 1);
     EXPECT_EQ(blocked.devices->stops, 0);

@@ -1,5 +1,5 @@
-// Tests workspaces that turn about the vertical: readings and forces turn with them, without
-// steps.
+// Tests workspaces that turn about the vertical: readings and forces must turn with them, without
+// jumps.
 #include "servo/workspace_turn.h"
 #include "base/number.h"
 
@@ -21,7 +21,7 @@ double rate(const frame::Frame& last, double goal) {
     return WorkspaceTurn::rate_toward(goal, last.workspace_turn + kTick * last.workspace_rate);
 }
 
-/// Devices with readings set by the test, which store the wrenches sent to them.
+/// Devices whose readings are set by the test, and which store the wrenches sent to them.
 class Desk final : public devices::DeviceGroup {
   public:
     Desk(const std::vector<std::string>& fingers, bool orientation)
@@ -58,7 +58,7 @@ struct Air {
     Desk* desk = nullptr;
     std::unique_ptr<Servo> servo;
     Time next{0};
-    Time period = std::chrono::milliseconds(1);  ///< of the ticks; the servo's is 1 ms
+    Time period = std::chrono::milliseconds(1);  ///< time between ticks; the servo's is 1 ms
 
     explicit Air(bool orientation = false, const frame::Settings& settings = {}) {
         for (const char* name : {"thumb", "index"}) {
@@ -85,7 +85,7 @@ struct Air {
                 add(commands.task.loads, {servo->world().scene_size(), force_W, Vec3::Zero()});
             });
     }
-    /// Mean of the devices' origins.
+    /// Returns the mean of the devices' origins.
     Vec3 axis() const { return (X_WD[0].p + X_WD[1].p) / 2; }
 };
 
@@ -107,7 +107,7 @@ TEST(WorkspaceTurn, StartsAndEndsWithoutAStepAndKeepsItsBounds) {
             most = std::max(most, turn.angle());
         }
         EXPECT_LE(fastest, 1);
-        // along the shorter path, without overshoot
+        // the turn takes the shorter way, without overshoot
         const double way = goal > kPi ? goal - 2 * kPi : goal;
         EXPECT_NEAR(turn.angle(), way, 2e-6);
         EXPECT_LT(most - least, std::abs(way) * 1.005);
@@ -133,7 +133,7 @@ TEST(WorkspaceTurn, IsBoundedWhoeverOrdersIt) {
 }
 
 TEST(WorkspaceTurn, ReadingsTurnAboutTheDevicesMiddle) {
-    // the rate that leads to a Frame is recorded in the previous Frame
+    // the rate of the turn that leads to a Frame is recorded in the previous Frame
     Air turning(true);
     double led = 0;
     std::vector<Vec3> before(2);
@@ -159,7 +159,7 @@ TEST(WorkspaceTurn, ReadingsTurnAboutTheDevicesMiddle) {
             ASSERT_LT((finger.v_WH - v).norm(), 1e-12);
             const Quat R = T * X_WD.R * reading.R_DH * X_WD.R.conjugate();
             ASSERT_LT(angle_between(frame.turns[d].R_WH, R), 1e-9);
-            // both velocities are those of the observed movement
+            // both velocities belong to the movement that was observed
             if (i > 0) {
                 ASSERT_LT(((finger.p_WH - before[d]) / kTick - finger.v_WH).norm(), 1.5e-3) << i;
                 const Vec3 turned =
@@ -195,7 +195,7 @@ TEST(WorkspaceTurn, ForcesTurnBackAndGiveTheSamePowerInBothAxes) {
         }
         led = frame.workspace_rate;
     }
-    // once the turn has stopped, the power is that of the whole velocity
+    // once the turn has stopped, the power is that of the full velocity
     EXPECT_EQ(led, 0);
     const frame::FingerFrame& finger = air.tick(kPi / 2, force).fingers[0];
     EXPECT_NEAR(finger.f_sent_W.dot(finger.v_WH), air.desk->told[0].force.dot(finger.v_DH), 1e-12);
@@ -205,11 +205,11 @@ TEST(WorkspaceTurn, TheWallStaysWithTheDevice) {
     frame::Settings settings;
     settings.safety.soft_start = 0;
     Air air(false, settings);
-    air.desk->readings[0].p_DH = {0.152, 0, 0};  // 2 mm beyond
+    air.desk->readings[0].p_DH = {0.152, 0, 0};  // 2 mm beyond the wall
     for (int i = 0; i < 4000; ++i) {
         const frame::Frame& frame = air.tick(2.5);
         if (i > 10) {
-            // as for a handle at rest, however the world turns around it
+            // same as for a handle at rest, however the world turns around it
             EXPECT_LT((air.desk->told[0].force - Vec3(-1, 0, 0)).norm(), 1e-9) << i;
         }
         EXPECT_EQ(frame.fingers[0].status & kTooFast, 0u);
@@ -228,7 +228,7 @@ TEST(WorkspaceTurn, ProxiesFollowInTheAirAndTurnWithoutALagOrAStep) {
             const frame::Frame& frame = air.tick(kPi / 2);
             const frame::FingerFrame& finger = frame.fingers[0];
             if (i > 0) {
-                // within the handle's movement in a step, and the lag of a dual spring
+                // the lag is at most the handle's movement in a step, plus the lag of a dual spring
                 const double lag = kind == frame::CouplingKind::dual_spring ? 2e-3 : 0.3e-3;
                 ASSERT_LT((finger.p_WP - finger.p_WH).norm(), lag) << enum_name(kind) << i;
                 ASSERT_LT((finger.v_WP - before).norm(), 2e-3) << enum_name(kind) << i;
@@ -295,7 +295,7 @@ TEST_P(AnyHand, HoldsABlockWhileTheWorkspaceTurnsByARightAngle) {
     frame::Settings settings;
     settings.proxy.kind = GetParam().proxy;
     settings.coupling.kind = GetParam().coupling;
-    // a stiffer coupling shakes blocks loose with or without a turn
+    // stiffer couplings shake blocks loose with or without a turn
     if (settings.coupling.kind == frame::CouplingKind::dual_spring)
         settings.coupling.stiffness = 300;
     Held held(settings);
@@ -321,7 +321,7 @@ TEST_P(AnyHand, HoldsABlockWhileTheWorkspaceTurnsByARightAngle) {
     EXPECT_EQ(guard.count(), 0u);
     EXPECT_NEAR(frame->workspace_turn, kPi / 2, 1e-5);
     EXPECT_EQ(status & ~uint32_t{kEnergyGenerated}, 0u);
-    // the slew limit would permit 3 N
+    // the slew limit alone would permit 3 N
     EXPECT_LT(most, 2e-3);
     RecordProperty("most_change_N", number_text(most));
     const Pose after = frame->bodies[1].X_WB;

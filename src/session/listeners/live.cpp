@@ -15,8 +15,9 @@ void Live::prepare(const servo::Servo& servo, const scene::Scene& scene) {
     knobs.prepare(servo, scene);
 }
 
-/// Every tick is somewhat late, so the earliest zero is the best estimate. A pause, in which
-/// session time stands still, makes the zero later.
+/// Updates the wall-clock time at which session time was zero. Every tick is somewhat late, so the
+/// earliest estimate is the best. A pause, during which session time stands still, moves the zero
+/// to a later time.
 void Live::note_zero(Time now) noexcept {
     constexpr Clock::rep kPause = std::chrono::nanoseconds(std::chrono::milliseconds(50)).count();
     const Clock::rep zero = (Clock::now().time_since_epoch() - now).count();
@@ -33,8 +34,7 @@ void Live::note_shown(int64_t tick, Clock::time_point at) noexcept {
 }
 
 void Live::note_shown(int64_t tick, Clock::time_point at, const Pose& X_WV, bool tracked) noexcept {
-    if (tick != shown_tick_)
-        note_shown(tick, at);  // another picture of the same tick, during a pause
+    if (tick != shown_tick_) note_shown(tick, at);  // during a pause, the same tick is shown again
     shown_tick_ = tick;
     const Vec3& p = X_WV.p;
     const Quat& R = X_WV.R;
@@ -42,7 +42,7 @@ void Live::note_shown(int64_t tick, Clock::time_point at, const Pose& X_WV, bool
         {tick, session_time(at), {p.x(), p.y(), p.z()}, {R.w(), R.x(), R.y(), R.z()}, tracked});
 }
 
-/// Hands over an attempt in its last tick, the only one with its outcome.
+/// Reports an attempt in its last tick, the only tick that has the attempt's outcome.
 void Live::note_trial(const frame::Frame& now) noexcept {
     if (now.trial < 1) return;
     if (now.trial != trial_.trial || now.task.attempt != trial_.attempt) {
@@ -78,7 +78,7 @@ void Live::steer(const Steering& steering) noexcept {
 void Live::take(const frame::Frame& now) noexcept {
     note_zero(now.time);
     note_trial(now);
-    // in a pause, each tick was requested separately
+    // in a pause, the operator requested this tick, so it is always shown
     if (now.sequence == 0 || now.time - shown_ >= kInterval || paused) {
         shown_ = now.time;
         frame.publish(now);

@@ -1,4 +1,4 @@
-// The log of a session: its recorder or, when the caller reads the frames, the caller's sink.
+// The log of a session: its recorder or, if the caller reads the frames, the caller's sink.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@ namespace dihaptic::session {
 
 class Log : public Listener {
   public:
-    /// Throws Error when the file cannot be made.
+    /// Throws Error if the log file cannot be created.
     explicit Log(const Opening& opening);
 
     void take(const frame::Frame& frame) noexcept override;
@@ -28,10 +28,10 @@ class Log : public Listener {
 
   private:
     std::optional<recording::Recorder> recorder_;
-    frame::FrameSink sink_;  // without a recorder
+    frame::FrameSink sink_;  // used if there is no recorder
     int64_t frames_ = 0;
     std::atomic<bool> failed_{false};
-    std::exception_ptr error_;  // on the virtual clock, where frames are written in the tick
+    std::exception_ptr error_;  // error on the virtual clock, where the tick itself writes frames
 };
 
 }  // namespace dihaptic::session

@@ -42,21 +42,20 @@ using Json = nlohmann::json;
 using Wall = std::chrono::steady_clock;
 
 constexpr Time kInterval = std::chrono::milliseconds(2);  // shortest interval between frames
-constexpr int kBusy = 2, kIdle = 50;  // interval of checks, for frames and for newcomers [ms]
-constexpr auto kLastPatience =
-    std::chrono::seconds(1);                   // patience with readers after the session's end
-constexpr size_t kLongestMessage = 64 * 1024;  // [bytes]
+constexpr int kBusy = 2, kIdle = 50;  // how often to look for frames, and for new observers [ms]
+constexpr auto kLastPatience = std::chrono::seconds(1);  // wait for slow readers at the end
+constexpr size_t kLongestMessage = 64 * 1024;            // [bytes]
 constexpr size_t kMostObservers = 16;
-constexpr const char* kNames = "dihaptic/session/";  // prefix of all names
+constexpr const char* kNames = "dihaptic/session/";  // prefix of all socket names
 constexpr int64_t kLongestName = 100;
 constexpr size_t kMostWatched = 64;
 
-/// A request by an observer that cannot be granted.
+/// Thrown when a request by an observer cannot be granted.
 struct Refusal {
     std::string why;
 };
 
-/// An unpredictable name: another user could otherwise take it first.
+/// Returns an unpredictable name: if the name could be guessed, another user could take it first.
 std::string fresh_name() {
     std::array<unsigned char, 16> chance{};
     if (getrandom(chance.data(), chance.size(), 0) != static_cast<ssize_t>(chance.size()))
@@ -73,9 +72,9 @@ Error cannot_be_watched(const std::string& why) {
                  "The session runs nevertheless.");
 }
 
-/// The socket's address is abstract: no leftover of a killed program is ever in the way, and the
-/// folder may be on any file system, with a path of any length. A file of this user contains the
-/// name.
+/// Listens for new observers. The socket's address is abstract, so that leftovers of a killed
+/// program are never in the way and so that the folder may be on any file system, with a path of
+/// any length. The name is stored in a file of this user.
 class Listening {
   public:
     explicit Listening(const std::string& folder)
@@ -90,7 +89,7 @@ class Listening {
     Listening& operator=(const Listening&) = delete;
 
     int descriptor() const { return socket_.get(); }
-    /// The socket of a newcomer started by this user; not open if there is none.
+    /// Returns the socket of a new observer started by this user; it is not open if there is none.
     Descriptor accept() const {
         Descriptor newcomer(accept4(socket_.get(), nullptr, nullptr, SOCK_CLOEXEC));
         const auto who = peer_of(newcomer.get());
@@ -98,7 +97,7 @@ class Listening {
     }
 
   private:
-    /// Writes the name to the file in which this user's programs look for it.
+    /// Writes the name to the file in which programs of this user look for it.
     bool publish(const std::string& name) const {
         const Descriptor file(::open(file_.c_str(),
                                      O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
@@ -120,21 +119,22 @@ struct Observer {
 
     explicit Observer(Descriptor newcomer) : socket(std::move(newcomer)) {}
 
-    std::deque<Json> owed;  // messages that must not be lost, until there is room for them
+    std::deque<Json> owed;  // messages that must not be lost, kept until there is room for them
 
-    /// Returns whether there was room for the message; an observer that does not read loses it.
+    /// Sends a message. Returns whether there was room for the message; if an observer does not
+    /// read, the message is lost.
     bool send(const Json& message) const {
         const std::string text =
             message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
         return ::send(socket.get(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT) >= 0;
     }
-    /// Sends owed messages, as far as there is room.
+    /// Sends owed messages for as long as there is room.
     void settle() {
         while (!owed.empty() && send(owed.front())) owed.pop_front();
     }
 };
 
-/// An attempt at a trial that ended.
+/// An attempt at a trial that has ended.
 struct Ended {
     int64_t tick = 0;
     double time = 0;
@@ -143,7 +143,7 @@ struct Ended {
     int32_t outcome = 0;
 };
 
-/// Sets a knob as requested; throws Refusal.
+/// Sets a knob to the requested value; throws Refusal if the value is not allowed.
 template <class T>
 void turn(T& knob, const frame::Knob& is, const Json& value) {
     if constexpr (std::is_same_v<T, double>) {
@@ -193,7 +193,7 @@ class Observers : public Listener {
     const scene::Scene& scene_;
     const std::string folder_;
     const bool real_;
-    const bool knobs_elsewhere_;  // only the window turns them
+    const bool knobs_elsewhere_;  // whether only the window may turn the knobs
     std::vector<std::string> states_;
     std::vector<std::string> outcomes_;
 
@@ -207,7 +207,7 @@ class Observers : public Listener {
     std::atomic<int> trigger_{0};
     std::atomic<bool> end_{false};
 
-    // used by the thread
+    // used only by the observers' thread
     frame::Knobs knobs_;
     std::list<Observer> observers_;
     size_t keys_ = 0, triggers_ = 0, turns_ = 0;
@@ -256,7 +256,8 @@ void Observers::run() {
     say_goodbye();
 }
 
-/// Sends slow readers their owed messages, for a while.
+/// Tries for a limited time to send slow readers the messages that are still owed, then ends all
+/// connections.
 void Observers::say_goodbye() {
     look(Wall::time_point::max());
     const auto owes = [](const Observer& observer) { return !observer.owed.empty(); };

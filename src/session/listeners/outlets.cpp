@@ -12,7 +12,7 @@
 namespace dihaptic::session {
 namespace {
 
-/// The rig's outlets, after a check that their libraries may be loaded.
+/// Returns the rig's outlets, after checking that their libraries may be loaded.
 const std::vector<outlets::OutletConfig>& outlets_of(const Plan& plan) {
     rig::check_libraries(plan.rig);
     return plan.rig.outlets;
@@ -45,7 +45,7 @@ class Outlets : public Listener {
 
   private:
     outlets::Station station_;
-    std::vector<float> values_;  // one per channel
+    std::vector<float> values_;  // one value per channel
 };
 
 void Outlets::take(const frame::Frame& frame) noexcept {

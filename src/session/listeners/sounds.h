@@ -5,7 +5,7 @@
 
 namespace dihaptic::session {
 
-/// Null if the session plays no sounds. Throws Error when they cannot be played.
+/// Returns null if the session plays no sounds. Throws Error when sounds cannot be played.
 std::unique_ptr<Listener> play_sounds(const Opening& opening);
 
 }  // namespace dihaptic::session

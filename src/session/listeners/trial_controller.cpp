@@ -27,13 +27,13 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kPatience = 1;             // [s]
-constexpr int kGreeting = 5000;             // longest wait for the greeting [ms]
+constexpr int kGreeting = 5000;             // longest time to wait for the greeting [ms]
 constexpr size_t kLongestLine = 64 * 1024;  // [bytes]
 constexpr size_t kMostMessages = 64;
 constexpr size_t kMostNotes = 10;
 constexpr size_t kLongestReason = 200;         // [bytes]
 constexpr std::chrono::seconds kSilence{5};    // silence after which the user is told of the wait
-constexpr std::chrono::seconds kReminder{20};  // time after which the user is told again
+constexpr std::chrono::seconds kReminder{20};  // after this time, the user is told again
 
 Error refused(const std::string& socket, const std::string& what) {
     return Error({socket, 0}, "", what,
@@ -41,7 +41,7 @@ Error refused(const std::string& socket, const std::string& what) {
                  "starts both.");
 }
 
-/// The reason for the failure, in one line that is valid in any file.
+/// Shortens the reason for a failure to one line that is valid in any file.
 std::string reason(std::string text) {
     if (text.size() > kLongestReason) {
         size_t end = kLongestReason;
@@ -51,7 +51,7 @@ std::string reason(std::string text) {
     return mended(text, Lines::one);
 }
 
-/// The lines received through a socket.
+/// Reads and sends lines through a socket.
 class LineReader {
   public:
     explicit LineReader(const std::string& path) : socket_(unix_socket(SOCK_STREAM)) {
@@ -64,12 +64,13 @@ class LineReader {
                 path, "belongs to another user: " + (peer ? peer->describe() : "unknown owner"));
     }
 
-    /// Sends a line; a reader that has left, or does not read, loses it.
+    /// Sends a line. If the reader has left or does not read, the line is lost.
     void send(const Json& line) const {
         const std::string text = line.dump() + "\n";
         ::send(socket_.get(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     }
-    /// Waits for a line, up to a time limit; nullopt: none came. `gone`: no more lines will come.
+    /// Waits for a line for at most the given time; returns nullopt if none arrives. `gone` becomes
+    /// true if no more lines can arrive.
     std::optional<std::string> read(std::chrono::microseconds wait, bool& gone) {
         if (auto line = take()) return line;
         pollfd what{socket_.get(), POLLIN, 0};
@@ -95,7 +96,7 @@ class LineReader {
     std::string read_;
 };
 
-/// A variable of the task, sent in its own unit.
+/// A variable of the task, which is sent in its own unit.
 struct Variable {
     std::string name;
     double si = 1;
@@ -107,7 +108,7 @@ struct TrialController::Parts {
     std::string path;
     LineReader lines;
     std::vector<std::string> messages;
-    int first_message = 0;  // index in the plan's list
+    int first_message = 0;  // index of the first of `messages` in the plan's list
     std::vector<std::string> outcomes;
     std::vector<Variable> variables;
     size_t trials = 0;
@@ -118,7 +119,7 @@ struct TrialController::Parts {
     std::function<void(const std::string&)> waiting;
     std::chrono::steady_clock::time_point asked_at;
     std::chrono::steady_clock::duration
-        told_after{};  // counted from asked_at; zero: the question has been answered
+        told_after{};  // counted from asked_at; zero once the question has been answered
     std::atomic<bool> ended{false};
     std::thread thread;
 
@@ -196,7 +197,7 @@ void TrialController::Parts::set(const Json& values, task::Decision& out) {
     }
 }
 
-/// Reads the next trial and the message to show.
+/// Reads the choice of the next trial and of the message to show.
 void TrialController::Parts::choose(const Json& json, task::Decision& out) {
     if (json.contains("next") && json["next"].is_number_integer()) {
         const auto next = json["next"].get<int64_t>();
@@ -224,7 +225,7 @@ void TrialController::Parts::take(const std::string& line) {
         return;
     }
     if (json["number"].get<int64_t>() != asked)
-        return;  // too late: the director has counted this answer as missing
+        return;  // the answer is too late: the director has counted it as missing
     task::Decision out;
     if (json.contains("failed") && json["failed"].is_string())
         note(fmt::format("failed ({}): the trials continued as in the file",
@@ -234,7 +235,8 @@ void TrialController::Parts::take(const std::string& line) {
     decide(out);
 }
 
-/// On the virtual clock the session stands still until the answer arrives.
+/// Tells the user about a long silence. On the virtual clock, the session stands still until the
+/// answer arrives.
 void TrialController::Parts::tell_of_silence() {
     const auto silent = std::chrono::steady_clock::now() - asked_at;
     if (told_after == told_after.zero() || silent < told_after || between->gone()) return;

@@ -1,4 +1,5 @@
-// Tests thousands of damaged sessions: none must count as complete, and none must crash its reader.
+// Tests thousands of damaged sessions. None may count as complete, and none may crash a program
+// that reads it.
 #include "session/test/damaged_session.h"
 
 namespace dihaptic::session {

@@ -1,4 +1,4 @@
-// Runs two thousand sessions with random extreme settings, and checks five thousand mutated files.
+// Runs two thousand sessions with random extreme settings and checks five thousand mutated files.
 #include "session/test/extremes.h"
 
 #include <cstdio>
@@ -13,7 +13,7 @@ TEST(ExtremesSoak, TwoThousandSessionsEndInOrderOrAreRefused) {
         const Ending ending = ending_of(
             [&] {
                 if (seed % 20 != 0) return run_extreme(request, std::chrono::seconds(3));
-                // every twentieth session writes all of its files
+                // one session in twenty writes all of its files
                 const testing::TemporaryFolder folder;
                 RunOptions options;
                 options.out = folder.path();

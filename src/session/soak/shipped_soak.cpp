@@ -1,4 +1,5 @@
-// Runs a complete shipped experiment; src/session/test/session_run_test.cpp runs a tenth of it.
+// Runs a complete shipped experiment, of which src/session/test/session_run_test.cpp runs only a
+// tenth.
 #include "session/test/repeats.h"
 
 namespace dihaptic::session {

@@ -1,4 +1,4 @@
-// Plays a session's task in its servo loop, and expects that no tick allocates.
+// Runs a session's task in its servo loop, and checks that no tick allocates memory.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 namespace dihaptic::session {
 
-/// Also expects that the task is done within `longest` [s]. `between`: controls the trials.
+/// Also checks that the task is done within `longest` [s]. `between` controls the trials.
 inline void expect_no_allocation(const Plan& plan, double longest,
                                  task::TrialControl* between = nullptr) {
     const auto servo = make_servo(plan);

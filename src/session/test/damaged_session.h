@@ -1,5 +1,5 @@
-// Passes sessions with damaged files to everything that reads them: faults must be reported, or
-// refused with an Error, and nothing else must be thrown.
+// Passes sessions with damaged files to every function that reads them: faults must be reported, or
+// refused with an Error, and nothing else may be thrown.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,8 @@ namespace dihaptic::session {
 
 namespace fs = std::filesystem;
 
-/// Two short sessions without the files made from their logs, and their contents.
+/// Two short sessions without the files that are made from their logs, and the contents of their
+/// files.
 class TwoSessions {
   public:
     TwoSessions() {
@@ -41,7 +42,8 @@ class TwoSessions {
     const std::string& other() const { return logs_[1]; }
     std::string file(const std::string& name) const { return folder_.file(name); }
 
-    /// A copy of the first session with that log; `known`: session.yaml says how many ticks it had.
+    /// Returns a copy of the first session with the given log. `known` is whether session.yaml says
+    /// how many ticks it had.
     recording::SessionFolder copy(const std::string& log, bool known) const {
         const std::string path = folder_.file("copy");
         fs::remove_all(path);
@@ -62,8 +64,8 @@ class TwoSessions {
     std::vector<std::string> logs_;
 };
 
-/// Inflicts each kind of damage `cases` times, and expects that recover never calls the log
-/// complete, a replay never passes, and report and export say what is wrong.
+/// Damages logs in each way `cases` times. Checks that recovery never calls the log complete, that
+/// a replay never passes, and that report and export say what is wrong.
 inline void expect_all_tell(int cases) {
     const TwoSessions sessions;
     {
@@ -83,14 +85,14 @@ inline void expect_all_tell(int cases) {
             EXPECT_TRUE(recovery.figures.log.damaged(recovery.info.ticks));
             EXPECT_EQ(session.read_info().state, recording::SessionState::recovered);
             EXPECT_FALSE(session.read_info().notes.empty());
-            // a recovered session needs no end mark, so a log whose records are all there can be
+            // a recovered session needs no end mark, so a log that contains all records can be
             // replayed
             const recording::LogHealth& left = recovery.figures.log;
             if (left.complete || !left.gaps.empty() || !left.strays.empty()) {
                 EXPECT_FALSE(replay_session(session.path(), kGoOn, {}).good());
             }
             if (seed % 5 == 0) {
-                fs::remove_all(sessions.file("study"));  // a data set contains a session only once
+                fs::remove_all(sessions.file("study"));  // a data set has each session only once
                 EXPECT_FALSE(analysis::write_tables(session.path(), {}).log.empty());
                 EXPECT_FALSE(
                     analysis::export_bids(session, sessions.file("study"), {}).log.empty());
@@ -100,7 +102,7 @@ inline void expect_all_tell(int cases) {
     }
 }
 
-/// Calls everything that reads a session. An Error is acceptable; anything else that is thrown is a
+/// Calls every function that reads a session. An Error is accepted; any other exception is a
 /// failure.
 inline void read_all_ways(const std::string& path, const std::string& study) {
     const auto attempt = [](const char* what, const std::function<void()>& read) {
@@ -124,7 +126,7 @@ inline void read_all_ways(const std::string& path, const std::string& study) {
             [&] { analysis::recover_session(recording::SessionFolder::open(path), {}); });
 }
 
-/// Damages the files of a session with trials at random, one after the other.
+/// Damages the files of a session with trials at random, one after another.
 inline void expect_mutated_files_are_borne(int cases, uint64_t first_seed) {
     Files files;
     const RunResult result = files.run(make_plan(files.request()));
@@ -145,7 +147,7 @@ inline void expect_mutated_files_are_borne(int cases, uint64_t first_seed) {
         std::string text =
             fs::exists(copy + "/" + name) ? testing::read_file(copy + "/" + name) : "a,b\n1,2\n";
         if (name == "raw.log") {
-            // a part of the log is enough, and quicker; files that cover more than it would be kept
+            // a part of the log is enough and faster; files made from more of the log would be kept
             auto chunks = testing::take_apart(text);
             chunks.erase(chunks.begin() + 12, chunks.end() - 1);
             text = testing::crafted(testing::put_together(chunks), random);
@@ -157,7 +159,7 @@ inline void expect_mutated_files_are_borne(int cases, uint64_t first_seed) {
         std::ofstream(copy + "/" + name, std::ios::binary) << text;
         const std::string checked = i % 2 == 0 ? name : "";
         if (!checked.empty() && name != "raw.log" && name != "session.yaml") {
-            // gives the changed file a matching checksum, as if nothing had changed
+            // gives the changed file a matching checksum, as if it had not been changed
             auto info = recording::SessionFolder::open(result.folder).read_info();
             for (recording::InputFile& input : info.inputs) {
                 if (input.file == name) input = recording::SessionFolder::open(copy).input(name);

@@ -1,6 +1,6 @@
-// Tries sessions with random extreme settings, and files with random changes, careless or
-// malicious. Each is tried in a process of its own, so that the test survives to report whatever
-// happens.
+// Tests sessions with random extreme settings, and files with random changes, as a careless or
+// malicious person might make. Each case runs in its own process, so that the test survives and can
+// report what happened.
 #pragma once
 
 #include <fmt/format.h>
@@ -28,12 +28,13 @@ constexpr auto enum_names(Ending) {
     return std::array{"in order", "faulted", "refused", "crashed", "hung"};
 }
 
-/// How `what` ends in a child process that may use `longest` seconds of processor time.
+/// Runs `what` in a child process that may use `longest` seconds of processor time. Returns how it
+/// ended.
 inline Ending ending_of(const std::function<Ending()>& what, unsigned longest) {
     const pid_t child = fork();
     if (child == 0) {
         std::freopen("/dev/null", "w", stderr);
-        alarm(20 * longest);  // in wall time, since the machine may be busy
+        alarm(20 * longest);  // limits wall-clock time; generous, since the machine may be busy
         const rlimit cpu{longest, longest};
         setrlimit(RLIMIT_CPU, &cpu);
         int code = static_cast<int>(Ending::crashed);
@@ -53,7 +54,7 @@ inline Ending ending_of(const std::function<Ending()>& what, unsigned longest) {
     return hung ? Ending::hung : Ending::crashed;
 }
 
-/// Lists every setting by its name on the command line, with its bounds.
+/// Lists every setting by its command-line name, with its bounds.
 class SettingLister {
   public:
     struct Setting {
@@ -104,8 +105,8 @@ const T& one_of(Random& random, const std::vector<T>& all) {
     return all[static_cast<size_t>(random.uniform(0, static_cast<double>(all.size())))];
 }
 
-/// A random value of a setting: mostly within its bounds, evenly over orders of magnitude;
-/// sometimes on a bound, sometimes beyond.
+/// Returns a random value for a setting. Most values are within its bounds, spread evenly over
+/// orders of magnitude; some are on a bound, and some outside.
 inline std::string extreme_value(Random& random, const SettingLister::Setting& setting) {
     if (!setting.choices.empty()) return one_of(random, setting.choices);
     const double kind = random.uniform(0, 1);
@@ -120,7 +121,7 @@ inline std::string extreme_value(Random& random, const SettingLister::Setting& s
     return fmt::format("{:.17g}", value);
 }
 
-/// A request for an experiment with one to five settings, of which one may be set again.
+/// Returns a request for an experiment with one to five settings, one of which may be given twice.
 inline Request extreme_request(uint64_t seed) {
     static const std::vector<std::string> kFiles{
         "experiments/lift-block.yaml",  "experiments/push-block.yaml",
@@ -161,8 +162,8 @@ inline std::string words(const Request& request) {
                        fmt::format("--set {}", fmt::join(request.set, " --set ")));
 }
 
-/// Runs the first `longest` of a session, without its files. In every tick, forces must be ones
-/// that may be sent to devices; otherwise the session counts as crashed.
+/// Runs the first `longest` of a session, without writing its files. In every tick, the forces must
+/// be such that they may be sent to devices; otherwise the session counts as crashed.
 inline Ending run_extreme(const Request& request, Time longest) {
     const Plan plan = make_plan(request);
     const auto servo = make_servo(plan);
@@ -184,7 +185,7 @@ inline Ending run_extreme(const Request& request, Time longest) {
     return servo->fault() ? Ending::faulted : Ending::in_order;
 }
 
-/// The text after one to four changes: of a byte, a line, a number, or the kind of a value.
+/// Returns the text after one to four changes: to a byte, a line, a number, or the kind of a value.
 inline std::string mutated(std::string text, Random& random) {
     static const std::vector<std::string> kNumbers{"0",
                                                    "-1",
@@ -262,7 +263,7 @@ inline std::string mutated(std::string text, Random& random) {
     return text;
 }
 
-/// A copy of all shipped text files, one of which is mutated at a time.
+/// Copies of all shipped text files, one of which is mutated at a time.
 class MutatedFiles {
   public:
     MutatedFiles() {
@@ -275,7 +276,7 @@ class MutatedFiles {
         std::sort(files_.begin(), files_.end());
     }
 
-    /// Mutates the file that this seed chooses, and checks it. `file` gets its name.
+    /// Mutates the file that `seed` selects, and checks it. `file` is set to its name.
     Ending check(uint64_t seed, std::string& file, std::string& text) const {
         Random random(seed, "mutations");
         file = one_of(random, files_);

@@ -1,10 +1,11 @@
-// Tests extreme settings and changed files: each is refused with an error, or ends properly.
+// Tests extreme settings and changed files: each one must either be refused with an error or end
+// properly.
 #include "extremes.h"
 
 namespace dihaptic::session::extremes_test {
 namespace {
 
-constexpr Time kFirst = std::chrono::milliseconds(1500);  // the hand has grasped by then
+constexpr Time kFirst = std::chrono::milliseconds(1500);  // the hand has closed its grasp by then
 
 void expect_order(const Request& request) {
     const Ending ending = ending_of([&] { return run_extreme(request, kFirst); }, 60);
@@ -21,7 +22,7 @@ TEST(ExtremeSettings, EndInOrderOrAreRefused) {
         EXPECT_TRUE(ending != Ending::crashed && ending != Ending::hung)
             << enum_name(ending) << ": " << words(request);
     }
-    // both kinds of ending must occur
+    // both kinds of ending must be among the results
     EXPECT_GT(endings[Ending::in_order], 5) << words(endings);
     EXPECT_GT(endings[Ending::refused], 5) << words(endings);
 }

@@ -1,5 +1,5 @@
-// Tests that a session runs on the files in its folder: if a file changes after it was read, the
-// session does not start, and leaves no folder.
+// Tests that a session uses the files in its own folder: if a file was changed after it had been
+// read, the session must not start, and must not leave a folder.
 #include <sndfile.h>
 
 #include <filesystem>
@@ -32,7 +32,7 @@ fingers:
   - { name: index, shape: sphere, radius_mm: 6, mass_g: 1 }
 )";
 
-/// A study that names a file of each kind.
+/// A study that uses at least one file of each kind.
 struct Study : Sessions {
     static constexpr const char* kFiles[] = {"felt/a.obj",     "felt/parts.mtl", "seen/a.obj",
                                              "seen/parts.mtl", "wood.png",       "relief.png",
@@ -67,7 +67,7 @@ struct Study : Sessions {
     }
 };
 
-/// Changes a file as an editor, an exporter or a synchroniser does.
+/// Changes a file in the way that an editor, an exporter or a synchronisation program does.
 void change(const std::string& file, int how, std::mt19937_64& random) {
     std::string text = testing::read_file(file);
     const size_t at = random() % text.size();
@@ -83,7 +83,7 @@ void change(const std::string& file, int how, std::mt19937_64& random) {
     std::ofstream(file, std::ios::binary) << text;
 }
 
-/// The error when the plan is started, and whether a folder is left.
+/// Starts the plan, checks that no session folder is left, and returns the error.
 std::string refusal(Files& files, const Plan& plan) {
     std::string said = "nothing";
     try {

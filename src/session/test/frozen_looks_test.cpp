@@ -1,4 +1,4 @@
-// Tests that a session keeps the looks of its bodies, even when it is resumed.
+// Tests that a session keeps the appearance of its bodies, even when it is resumed.
 #include <algorithm>
 #include <filesystem>
 
@@ -11,8 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An OBJ file of one material, whose colour is in the file next to it, under a name that is the
-/// same in all folders.
+/// Writes an OBJ file with one material, whose colour is defined in the file next to it, under a
+/// name that is the same in all folders.
 void write_mesh(const fs::path& folder, const std::string& colour) {
     fs::create_directory(folder);
     std::ofstream(folder / "a.obj") << "mtllib parts.mtl\nv 0 0 0\nv 20 0 0\nv 0 20 0\nv 0 0 20\n"
@@ -20,7 +20,7 @@ void write_mesh(const fs::path& folder, const std::string& colour) {
     std::ofstream(folder / "parts.mtl") << "newmtl one\nKd " << colour << "\n";
 }
 
-/// The names of a session's files from which looks are made.
+/// Returns the names of those files in a session that define how bodies look.
 std::vector<std::string> kept(const std::string& session) {
     std::vector<std::string> out;
     for (const recording::InputFile& input :

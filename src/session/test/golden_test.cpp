@@ -1,5 +1,5 @@
-// The first seconds of every shipped scene and experiment, with every solver, come out as they did
-// when golden.txt was written: to the bit, whatever the build.
+// Tests that the first seconds of every shipped scene and experiment, with every solver, give the
+// same results as when golden.txt was written: bit for bit, in every build.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@ namespace dihaptic::session::golden_test {
 namespace {
 
 constexpr const char* kFile = "src/session/test/golden.txt";
-/// Number of ticks run of each file, and of files whose many contacts make the slowest solvers take
-/// minutes.
+/// Number of ticks to run: normally, and for files with so many contacts that the slowest solvers
+/// would take minutes.
 constexpr int64_t kTicks = 3000;
 constexpr int64_t kFewTicks = 300;
 
@@ -27,7 +27,7 @@ int64_t ticks_of(const std::string& file) {
     return file == "scenes/tower.yaml" || file == "scenes/sponge.yaml" ? kFewTicks : kTicks;
 }
 
-/// "FILE SOLVER" to the hash of what was computed.
+/// Maps "FILE SOLVER" to the hash of the results.
 using Hashes = std::map<std::string, std::string>;
 
 Hashes read() {
@@ -43,7 +43,7 @@ void write(const Hashes& hashes) {
     for (const auto& [name, hash] : hashes) out << name << " " << hash << "\n";
 }
 
-/// FNV-1a, number by number.
+/// FNV-1a hash, computed number by number.
 class Hash {
   public:
     void add(const std::vector<double>& numbers) {

@@ -1,5 +1,5 @@
-// Tests that a session's sounds are heard when its tables say so, and that a session without a
-// sound device runs without them.
+// Tests that a session's sounds are heard at the times stated in its tables, and that a session
+// runs without sounds if there is no sound device.
 #include <gtest/gtest.h>
 #include <sndfile.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kRate = 48000;
 
-/// Reaches at whose beginning a tone without ramps is heard, played into a file.
+/// An experiment with reaches that begin with a tone without ramps. Sounds are played into a file.
 struct WithTone : Files {
     std::string output;
 
@@ -39,7 +39,7 @@ struct WithTone : Files {
     }
 };
 
-/// When sound begins after silence in a file [s].
+/// Returns the times at which sound begins after silence in a file [s].
 std::vector<double> onsets_in(const std::string& name) {
     SF_INFO info{};
     SNDFILE* const file = sf_open(name.c_str(), SFM_READ, &info);
@@ -53,7 +53,7 @@ std::vector<double> onsets_in(const std::string& name) {
     std::vector<double> out;
     size_t silent = kRate;  // samples
     for (size_t i = 0; i < samples.size(); ++i) {
-        // a sine is zero at its beginning
+        // a sine starts with a zero sample
         if (samples[i] != 0 && silent > 1000) out.push_back(static_cast<double>(i - 1) / kRate);
         silent = samples[i] != 0 ? 0 : silent + 1;
     }

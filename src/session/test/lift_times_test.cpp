@@ -1,6 +1,6 @@
-// Tests the times of grip-lifts against the raw frames, from 40 g to 1 kg, on three surfaces, with
-// grips that hardly hold and grips that crush: found by contact they are right to 2 ms, found by
-// force they are not.
+// Compares the times found for grip-lifts with the raw frames, for 40 g to 1 kg, on three surfaces,
+// with grips that hardly hold and grips that crush. Times found from contacts must be right to 2
+// ms; times found from forces are not.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -24,12 +24,12 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct Grasp {
     double mass;      // [kg]
-    double friction;  // coefficient between block and fingers
-    double margin;    // grip over the least that friction needs
+    double friction;  // friction coefficient between block and fingers
+    double margin;    // grip force relative to the least that friction requires
 };
 
-/// An experiment with a hand so stiff that targets 15 mm within each face press with the grip. The
-/// devices add a spring of 3000 N/m in series.
+/// Returns an experiment with a hand so stiff that targets 15 mm inside each face produce the grip
+/// force. The devices add a spring of 3000 N/m in series.
 std::string experiment_of(const Grasp& g) {
     const double grip = g.margin * g.mass * kGravity / (2 * g.friction);
     const double both = grip / 0.015;
@@ -73,8 +73,8 @@ devices:
   - { finger: index, backend: simulated, options: { peak_force_N: 60 } }
 )";
 
-/// Times found without the analysis' code, from contacts of the block with fingers and table, the
-/// table's force, and the block's height.
+/// Times found independently of the analysis code: from the block's contacts with fingers and
+/// table, the table's force, and the block's height.
 struct Truth {
     double touch = kNone, load_onset = kNone, lift_off = kNone, replacement = kNone;  // [s]
 };
@@ -87,7 +87,7 @@ Truth truth_of(const std::vector<Seen>& seen, double weight) {
     Truth out;
     double top = 0;
     for (const Seen& s : seen) top = std::max(top, s.height - seen.front().height);
-    size_t high = 0, low = 0;  // first and last sample at half of the height
+    size_t high = 0, low = 0;  // first and last sample at half the height
     for (size_t i = 0; i < seen.size(); ++i) {
         if (seen[i].height - seen.front().height < top / 2) continue;
         if (high == 0) high = i;
@@ -130,7 +130,7 @@ Found lift(const Grasp& g) {
             (c.a + c.b - kBlock == kTable ? s.table : s.fingers) += c.normal_force;
         }
         if (!block.awake)
-            s.table = g.mass * kGravity;  // a sleeping block lies on the table without contacts
+            s.table = g.mass * kGravity;  // a sleeping block lies on the table but has no contacts
         seen.push_back(s);
     }
     const double friction[] = {g.friction, g.friction};
@@ -139,7 +139,7 @@ Found lift(const Grasp& g) {
             find_lift(trace, gravity, friction, EventRule::force)};
 }
 
-/// Largest error of each figure [s]; infinite if a figure is missing.
+/// Largest error of each time [s]; infinite if a time is missing.
 struct Worst {
     double touch = 0, onset = 0, off = 0, replaced = 0, preload = 0, loading = 0;
 
@@ -190,7 +190,7 @@ TEST(LiftTimes, AreThoseOfTheContactsFrom40gTo1kg) {
     RecordProperty("worst_by_contact", contact.text());
     RecordProperty("worst_by_force", force.text());
     fmt::print("worst by contact: {}\nworst by force:   {}\n", contact.text(), force.text());
-    // traces with contacts gain by the rule that uses them
+    // where traces have contacts, the rule that uses them is far more accurate
     EXPECT_GT(force.touch, 10 * contact.touch);
 }
 

@@ -1,4 +1,4 @@
-// Tests sessions that another thread watches and steers, as a window does.
+// Tests sessions that are watched and steered by another thread, as by a window.
 #include "session/listeners/live.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Runs a session in a thread of its own until it ends by itself or the desk ends it.
+/// Runs a session in its own thread until the session ends by itself or the desk ends it.
 class Desk {
   public:
     explicit Desk(const Request& request) {
@@ -40,7 +40,8 @@ class Desk {
         if (thread_.joinable()) thread_.join();
     }
 
-    /// The newest frame, once session time has reached `t` or the thread has had ten seconds.
+    /// Returns the newest frame once session time has reached `t`, or after ten seconds at the
+    /// latest.
     const frame::Frame& at(double t) {
         for (int i = 0; i < 10000; ++i) {
             const frame::Frame& frame = live.frame.read();
@@ -57,8 +58,9 @@ class Desk {
         goal.aperture = aperture;
         plan.mouse->follow(goal, now());
     }
-    /// Lifts at 5 cm/s of session time, each step after the last was made: if the hand went on
-    /// while a busy machine makes the session lose ticks, it would be torn off what it holds.
+    /// Lifts at 5 cm/s of session time. Each step waits until the previous one was made: otherwise,
+    /// if a busy machine makes the session lose ticks, the hand would move on and be torn off the
+    /// object that it holds.
     void lift(double height) {
         hand::Posture goal = plan.mouse->goal();
         const double end = goal.centre.z() + height;
@@ -71,7 +73,7 @@ class Desk {
 
     Live live;
     Plan plan;
-    frame::Knobs knobs;  // those that the watching thread wants
+    frame::Knobs knobs;  // knobs requested by the watching thread
     RunResult result;
 
   private:
@@ -110,7 +112,7 @@ TEST(Live, TimeStandsStillInAPauseAndForceComesOnSoftlyAfterIt) {
     const std::vector<frame::Frame> frames = frames_of(desk.result.folder);
     int resumed = 0;
     for (size_t i = 2; i < frames.size(); ++i) {
-        // missed ticks have no frame; the pause is not in session time
+        // missed ticks have no frame; the pause does not count as session time
         EXPECT_LT(seconds(frames[i].time - frames[i - 1].time), 0.2);
         if ((frames[i].status & kResumed) == 0) continue;
         ++resumed;
@@ -120,7 +122,7 @@ TEST(Live, TimeStandsStillInAPauseAndForceComesOnSoftlyAfterIt) {
         EXPECT_EQ(frames[i - 1].status & kForceOff, 0u);
         for (const frame::FingerFrame& finger : frames[i - 1].fingers)
             EXPECT_EQ(finger.f_sent_W,
-                      Vec3::Zero());  // already in the last tick before the resumption
+                      Vec3::Zero());  // already zero in the last tick before the session resumes
         EXPECT_GT(frames[i - 2].fingers[0].f_sent_W.norm(), 0.5);
     }
     EXPECT_EQ(resumed, 1);
@@ -179,11 +181,11 @@ TEST(Live, ProxiesChangeOnceTheyAreClearOfEverythingAndTheReplayIsExact) {
     EXPECT_GT(desk.at(desk.now() + 0.8).grip_force, 0.3);
     desk.knobs.proxy = scene::ProxyKind::point;
     desk.live.knobs.publish(desk.knobs);
-    // unchanged while the fingers hold the block
+    // stays the same while the fingers hold the block
     EXPECT_EQ(desk.at(desk.now() + 0.2).proxy, scene::ProxyKind::rigid);
     desk.squeeze(open);
     EXPECT_EQ(desk.at(desk.now() + 0.8).proxy, scene::ProxyKind::point);
-    desk.squeeze(0.03);  // points close on the block as pads do
+    desk.squeeze(0.03);  // closes points on the block, as pads do
     const frame::Frame& held = desk.at(desk.now() + 1);
     EXPECT_GT(held.grip_force, 0.3);
     desk.end();
@@ -195,7 +197,7 @@ TEST(Live, AfterAFaultTheSessionWaitsAndTheTrialIsDoneAgainOnceItGoesOn) {
     Files files;
     files.replace("hand: { centre_mm: [0, 0, 120] }",
                   "hand: { centre_mm: [0, 0, 120] }\nsettings: { safety: { max_speed_m_s: 0.2 } }");
-    // a reach of 50 mm in 0.2 s exceeds this speed; in 0.8 s it does not
+    // a reach of 50 mm exceeds this speed if it takes 0.2 s, but not if it takes 0.8 s
     Desk desk(files.request());
     std::string told;
     for (int i = 0; i < 10000 && told.empty(); ++i) {
@@ -206,7 +208,7 @@ TEST(Live, AfterAFaultTheSessionWaitsAndTheTrialIsDoneAgainOnceItGoesOn) {
     EXPECT_TRUE(desk.live.paused);
     const double at = desk.now();
     std::this_thread::sleep_for(milliseconds(100));
-    EXPECT_EQ(desk.now(), at);  // the session waits
+    EXPECT_EQ(desk.now(), at);  // the session is waiting
     desk.live.paused = false;
     desk.at(at + 0.3);
     desk.end();
@@ -257,7 +259,7 @@ TEST(Live, AWatcherThatFallsSilentTakesForceAwayWithinASecond) {
     desk.squeeze(0.034);
     double last = 0;
     const auto end = Live::Clock::now() + milliseconds(1500);
-    while (Live::Clock::now() < end) {  // answers for longer than it may be silent
+    while (Live::Clock::now() < end) {  // calls for longer than it may stay silent
         desk.live.note_alive();
         last = desk.now();
         std::this_thread::sleep_for(milliseconds(20));
@@ -327,7 +329,7 @@ TEST(Live, TriggersComeInAndEventCodesGoOutOnTheRigsSerialLine) {
     Desk desk(files.request());
     EXPECT_TRUE(desk.plan.warnings.empty());
     desk.at(0.3);
-    EXPECT_EQ(desk.live.frame.read().phase, 1);  // the trial waits
+    EXPECT_EQ(desk.live.frame.read().phase, 1);  // the trial is waiting
     far.send(200);
     EXPECT_EQ(far.receive(1), (std::vector<int>{7}));
     desk.end();
@@ -348,7 +350,7 @@ class LiveOutlet : public ::testing::TestWithParam<std::string> {
         allow_library(fallible->options());
     }
     void TearDown() override { unsetenv("XDG_CONFIG_HOME"); }
-    /// Puts the fake library on the user's own list, if the outlet uses a library.
+    /// Adds the fake library to the user's own list, if the outlet uses a library.
     void allow_library(const std::string& options) {
         const Node node = parse_yaml(options, "options");
         const Node* const library = node.find("library");
@@ -375,7 +377,7 @@ TEST_P(LiveOutlet, ThatCannotBeOpenedLeavesNoHalfSession) {
     options.out = files.folder.path() + "/sessions";
     const std::atomic<bool> stop{false};
     EXPECT_THROW(run_session(make_plan(files.request()), options, stop, {}), Error);
-    std::error_code none;  // the folder may not even have been made
+    std::error_code none;  // ignored: the folder may not even exist
     EXPECT_TRUE(!std::filesystem::exists(options.out) ||
                 std::filesystem::is_empty(options.out, none));
 }
@@ -421,15 +423,15 @@ TEST(Live, EasesWhatHoldsSomethingAndTurnsTheRestAtOnce) {
     EXPECT_NEAR(now.stiffness, 1500, 1e-6);
     EXPECT_TRUE(std::isnan(now.damping));
     EXPECT_EQ(now.smoothing, 0.5);
-    EXPECT_EQ(now.proxy, scene::ProxyKind::rigid);  // the session does not allow changes
-    wanted.friction_scale = 2;                      // midway; the ramp does not restart
+    EXPECT_EQ(now.proxy, scene::ProxyKind::rigid);  // the session does not allow the change
+    wanted.friction_scale = 2;                      // halfway; the ramp does not start again
     live.knobs.publish(wanted);
     turn(1);
     EXPECT_EQ(now.friction_scale, 2);
     EXPECT_NEAR(now.stiffness, 1505, 1e-6);
     turn(100);
     EXPECT_EQ(now.stiffness, 2000);
-    wanted.damping = 3;  // before, it was NaN, which stands for k h / 2
+    wanted.damping = 3;  // it was NaN before, which stands for k h / 2
     live.knobs.publish(wanted);
     turn(1);
     EXPECT_EQ(now.damping, 3);
@@ -480,7 +482,7 @@ TEST(Live, EndsInAPause) {
     std::this_thread::sleep_for(milliseconds(50));
     desk.end();
     EXPECT_EQ(desk.result.fault, "");
-    // in session time: a busy machine leaves ticks out
+    // measured in session time, because a busy machine skips ticks
     EXPECT_GE(desk.result.simulated, 0.1);
     const std::vector<frame::Frame> frames = frames_of(desk.result.folder);
     ASSERT_FALSE(frames.empty());

@@ -1,4 +1,5 @@
-// Tests the warnings of loads that a loop, a device or a body cannot hold, with their figures.
+// Tests the warnings about loads that a loop, a device or a body cannot withstand, including the
+// numbers in them.
 #include <gtest/gtest.h>
 
 #include "session/test/reaches.h"
@@ -10,7 +11,7 @@ const char* const kField =
     "field: { kind: channel, on: index, from: start, to: target, stiffness_N_m: 1000, "
     "damping_Ns_m: 5 }";
 
-/// The messages about a load when it is planned, on a simulated device with these options.
+/// Returns the messages about a load that is planned on a simulated device with these options.
 std::string said_of(const std::string& load, const std::string& options = "preset: plant",
                     const std::string& settings = "") {
     Files files;
@@ -55,7 +56,7 @@ TEST(LoadChecks, SayNothingOfLoadsThatAreHeld) {
 TEST(LoadChecks, CompareStiffnessAndDampingWithTheLoop) {
     expect_said(said_of("kind: spring, on: index, about: start, stiffness_N_m: 9000"),
                 "a spring load of 9000 N/m is above 6000 N/m (2 b / T)");
-    // the age of its inputs enters twice, as a device's delay does
+    // the age of the inputs counts twice, as a device's delay does
     expect_said(said_of("kind: channel, on: index, from: start, to: target, stiffness_N_m: 1000, "
                         "delay_ms: 10"),
                 "a channel load of 1000 N/m is above 286 N/m (2 b / T)");

@@ -1,4 +1,5 @@
-// Tests the warnings of masses that a step of the world cannot hold, with their figures.
+// Tests the warnings about masses that the world's time step cannot handle, including the numbers
+// in them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +9,7 @@
 namespace dihaptic::session::mass_checks_test {
 namespace {
 
-/// The messages about a scene when it is planned.
+/// Returns the messages about a scene when it is planned.
 std::string said_of(const std::string& bodies, const std::string& more = "") {
     testing::TemporaryFolder folder;
     Request request;
@@ -29,7 +30,7 @@ std::string box(const std::string& name, double mass_g, double z_mm) {
         name, mass_g, z_mm);
 }
 
-/// A chain of links of 3 x 3 x 8 mm on ball joints, with a load.
+/// Returns a chain of links, each 3 x 3 x 8 mm, on ball joints, carrying a load.
 std::string chain(double link_g, double load_g) {
     constexpr int kLinks = 20;
     std::string bodies, joints = "joints:\n";
@@ -62,7 +63,7 @@ TEST(MassChecks, SayWhichSolverHoldsWhichRatio) {
 }
 
 TEST(MassChecks, SayWhatAChainOfLightLinksCannotCarry) {
-    // as measured: links of 1 g hold 200 g at 1 kHz; with 500 g they come apart, but not at 2 kHz
+    // measured: links of 1 g hold 200 g at 1 kHz; with 500 g they hold only at 2 kHz
     EXPECT_EQ(said_of(chain(1, 200)), "");
     EXPECT_EQ(said_of(chain(10, 500)), "");
     const std::string said = said_of(chain(1, 500));

@@ -1,4 +1,4 @@
-// Tests that each file alone tells whether its data come from a simulation or a person.
+// Tests that every single file shows whether its data come from a simulation or from a person.
 #include "recording/moved_by.h"
 
 #include <filesystem>
@@ -18,7 +18,7 @@ size_t count(const std::string& text, const std::string& what) {
     return out;
 }
 
-/// Expects that each row of these tables says who moved the hand, in its last columns.
+/// Checks that each row of these tables says, in its last columns, who moved the hand.
 void expect_tables_say(const std::string& folder, const recording::MovedBy& by,
                        const std::vector<std::string>& names) {
     for (const std::string& name : names) {
@@ -127,7 +127,7 @@ TEST(Report, OfAFolderHasTheTablesOfEachSessionAndTellsWhichItCouldNotWrite) {
         fs::remove(file);
     }
     ASSERT_GT(tables.size(), 1u);
-    // nothing is ever written through a link
+    // the program must never write through a link
     fs::create_symlink(sessions.files.folder.file("elsewhere.csv"), second + "/" + tables[0]);
     const auto report = analysis::write_tables(sessions.files.folder.file("sessions"), {});
     EXPECT_EQ(report.sessions, 2);

@@ -1,6 +1,6 @@
-// Tests what other programs cannot see of a session that they watch: that a tick shows its frame
-// without allocating, and what happens to them in its pauses and after its end. What they see and
-// do is tested in python/test/live_test.py.
+// Tests what observing programs cannot see themselves: that a tick publishes its frame without
+// allocating memory, and what happens to observers during pauses and after the end of the session.
+// What they see and do is tested in python/test/live_test.py.
 #include "session/listeners/observers.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ class Observer {
     void send(const std::string& message) const {
         EXPECT_GT(::send(socket_.get(), message.data(), message.size(), 0), 0);
     }
-    /// The next message; "" if there will be none.
+    /// Returns the next message; "" if no more messages will arrive.
     std::string read() const {
         std::string text(1 << 16, '\0');
         const ssize_t size = recv(socket_.get(), text.data(), text.size(), 0);
@@ -38,7 +38,7 @@ class Observer {
     Descriptor socket_;
 };
 
-/// A session that other programs may watch; its ticks are the test's.
+/// A session that other programs may watch, and whose ticks are run by the test.
 struct Watched {
     Watched(const Sessions& sessions, const Plan& plan, const servo::Servo& servo)
         : folder(recording::SessionFolder::create(sessions.files.folder.path(), "watched")) {
@@ -138,7 +138,7 @@ TEST(Observers, AreToldEveryEndOfAnAttemptThoughTheyReadAfterTheSession) {
     servo->activate();
     frame::Frame frame = servo->tick(Time{0}, {});
     frame.task.outcome = 0;
-    constexpr int kEnds = 1000;  // the socket has room for some 300
+    constexpr int kEnds = 1000;  // the socket has room for about 300
     for (frame.trial = 1; frame.trial <= kEnds; ++frame.trial) {
         watched.observers->take(frame);
         if (frame.trial % 16 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -1,5 +1,5 @@
-// Tests sessions on the virtual clock that a window watches: their pace, pauses and single ticks,
-// and that none of these changes what is computed.
+// Tests sessions on the virtual clock that are watched by a window: their pace, pauses and single
+// ticks, and that none of these changes the results.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -16,7 +16,7 @@ namespace {
 using std::chrono::milliseconds;
 using Wall = std::chrono::steady_clock;
 
-/// A session of two trials in a thread of its own.
+/// Runs a session of two trials in its own thread.
 struct Watched {
     Files files;
     Live live;
@@ -43,7 +43,7 @@ struct Watched {
         if (thread.joinable()) thread.join();
     }
     int64_t tick() { return live.frame.read().sequence; }
-    /// Waits until a condition holds, for ten seconds at most.
+    /// Waits until a condition holds, but for at most ten seconds.
     template <class Condition>
     bool until(const Condition& condition) {
         for (int i = 0; i < 10000; ++i) {
@@ -79,7 +79,7 @@ TEST(Pacing, APauseAndSingleTicksChangeNothingOfWhatIsComputed) {
     session.live.steps = 8;
     EXPECT_TRUE(session.until([&] { return session.tick() >= held + 8; }));
     std::this_thread::sleep_for(milliseconds(20));
-    // before it paused, a frame was handed over each 4 ms of session time
+    // before the pause, a frame was published every 4 ms of session time
     EXPECT_LE(session.tick(), held + 12);
     session.live.pace = 0;
     session.live.paused = false;

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The shipped files, which tests run and check.
+/// Returns the shipped files, which tests run and check.
 std::vector<std::string> shipped(const std::string& folder, const std::string& extension) {
     std::vector<std::string> out;
     for (const auto& entry : fs::directory_iterator(folder)) {
@@ -31,8 +31,8 @@ TEST(ShippedFiles, AreInOrder) {
             Diagnostics diagnostics;
             EXPECT_NE(check_file(file, diagnostics).what, "unknown");
             for (const Problem& p : diagnostics.problems()) {
-                // simulated people can rehearse a file that is beyond their judgement, if it says
-                // so
+                // simulated people can rehearse a file that requires a judgement they cannot make,
+                // if it says so
                 const bool arbitrary =
                     p.severity == Severity::warning &&
                     p.text().find("do not treat their figures as human data") != std::string::npos;
@@ -55,7 +55,7 @@ TEST(ShippedFiles, TheMovementHasTheFaultsThatItIsToShow) {
     }
 }
 
-/// An experiment with its files, and the messages from planning it.
+/// An experiment with its files, and the messages given when it is planned.
 struct Files {
     testing::TemporaryFolder folder;
     std::string scene =
@@ -101,7 +101,7 @@ TEST(Plan, SettingsComeFromSceneThenRigThenExperimentThenCommandLine) {
     EXPECT_EQ(plan.origins["coupling.stiffness"], "command line");
 }
 
-/// Stiffness and damping as shares of what a Premium renders calmly: 1000 N/m, 8 N*s/m.
+/// Stiffness and damping given as shares of what a Premium renders calmly: 1000 N/m and 8 N*s/m.
 struct SharedFiles : Files {
     SharedFiles() {
         rig =
@@ -118,7 +118,7 @@ TEST(Plan, StiffnessAndDampingMayBeSharesOfWhatTheDeviceRenders) {
     Plan plan = make_plan(files.request());
     EXPECT_EQ(plan.settings.coupling.stiffness, 500);
     EXPECT_EQ(plan.settings.coupling.damping, 0.8);
-    // a session freezes the values only, not the shares
+    // a session stores only the values, not the shares
     EXPECT_FALSE(plan.settings.coupling.stiffness_share);
     EXPECT_FALSE(plan.settings.coupling.damping_share);
     EXPECT_NE(
@@ -126,7 +126,7 @@ TEST(Plan, StiffnessAndDampingMayBeSharesOfWhatTheDeviceRenders) {
         std::string::npos)
         << plan.origins["coupling.stiffness"];
     EXPECT_EQ(plan.origins.count("coupling.stiffness_share"), 0u);
-    // the later setting takes effect, whether it is a value or a share
+    // the later setting wins, whether it is a value or a share
     Request request = files.request();
     request.set = {"coupling.stiffness_N_m=700"};
     EXPECT_EQ(make_plan(request).settings.coupling.stiffness, 700);
@@ -484,7 +484,7 @@ TEST(Plan, WarnsOfTrialsThatTheirMeasuresWillNotShow) {
     EXPECT_NE(warnings("distance_mm: 30", "distance_mm: 51")
                   .find("distance: is 51 mm, but the nearest target is 50 mm away"),
               std::string::npos);
-    // a formula's value is not known before the trial
+    // the value of a formula is not known before the trial
     EXPECT_EQ(warnings("name: target, position_mm: [50, 0, 120]",
                        "name: target, position_mm: [start.x + 50 mm, 0, 120]")
                   .find("is not measured"),
@@ -536,7 +536,7 @@ TEST(Plan, SetIsAnsweredInItsOwnTerms) {
               "coupling.stiffness_N_m=600.");
 }
 
-/// Problems that check finds in a movement, one per line.
+/// Returns the problems that `check` finds in a movement, one per line.
 std::string said_of_movement(const std::function<void(std::string&)>& change) {
     const testing::TemporaryFolder folder;
     std::string text = testing::read_file("movements/reach-to-grasp.csv");
@@ -561,7 +561,7 @@ TEST(CheckFile, TellsOfFingersOfAMovementThatNobodyKnows) {
 
 TEST(CheckFile, TellsOfAMovementThatIsMostlyBridged) {
     const std::string said = said_of_movement([](std::string& text) {
-        // keeps only one frame in twelve after a while
+        // from some point on, keeps only one frame in twelve
         std::istringstream in(text);
         std::string line, thin;
         for (int i = 0; std::getline(in, line); ++i) {

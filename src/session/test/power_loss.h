@@ -1,5 +1,5 @@
-// Simulates a loss of power: the disk keeps of each file only its contents at the last
-// synchronisation, and of each folder only the names in it at that time.
+// Simulates a power failure: for each file, the disk keeps only the contents at the last
+// synchronisation; for each folder, it keeps only the names that existed at that time.
 //
 // This replaces fsync() in the program that includes this header; include it in one source file.
 #pragma once
@@ -31,15 +31,15 @@ class Disk {
     Disk(const Disk&) = delete;
     Disk& operator=(const Disk&) = delete;
 
-    /// Called after each synchronisation, by the thread that asked for it.
+    /// Called after each synchronisation, by the thread that requested it.
     std::function<void()> synced;
 
-    /// Writes to the folder `to` what is left of `folder` when power fails now.
+    /// Writes to the folder `to` what would be left of `folder` if power failed now.
     void lose_power(const std::string& folder, const std::string& to) {
         const std::lock_guard lock(guard_);
         restore(inode_of(folder), to);
     }
-    /// When the last synchronisation of the file began.
+    /// Returns the time when the last synchronisation of the file began.
     Clock::time_point last_sync(const std::string& file) {
         const std::lock_guard lock(guard_);
         return times_[inode_of(file)];

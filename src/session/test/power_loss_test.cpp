@@ -1,4 +1,4 @@
-// Tests what is left of a session when the power fails.
+// Tests what is left of a session after a power failure.
 #include "session/test/power_loss.h"
 
 #include <gtest/gtest.h>
@@ -50,12 +50,12 @@ int64_t frames_in(const std::string& session) {
 
 constexpr int64_t kLeastWritten = testing::kSanitized ? 200 : 700;  // frames
 
-/// Power fails in the middle of a session of three seconds on the real clock.
+/// Simulates a power failure in the middle of a session of three seconds on the real clock.
 struct Loss {
     testing::TemporaryFolder folder;
     Disk disk;
-    int64_t written = 0;  ///< frames that a kill would have left
-    double unsynced = 0;  ///< how long ago the last synchronisation began [s]
+    int64_t written = 0;  ///< number of frames left if the program had only been killed
+    double unsynced = 0;  ///< time since the last synchronisation began [s]
     std::string left;     ///< the session's folder; "" if there is none
 
     explicit Loss(double sync) {
@@ -69,7 +69,7 @@ struct Loss {
         std::this_thread::sleep_for(std::chrono::milliseconds(730));
         disk.lose_power(folder.path(), folder.file("after"));
         const auto last_sync = disk.last_sync(running + "/raw.log");
-        written = frames_in(running);  // the session continues while its frames are counted
+        written = frames_in(running);  // frames are counted while the session continues
         unsynced = std::chrono::duration<double>(Disk::Clock::now() - last_sync).count();
         session.join();
         const std::string sessions = folder.file("after/new/sessions");
@@ -88,7 +88,7 @@ TEST(PowerLoss, EverythingUpToTheLastSynchronisationIsThere) {
     const analysis::Recovery recovery = analysis::recover_session(folder, {});
     EXPECT_EQ(recovery.figures.frames, left);
     EXPECT_TRUE(
-        recovery.warnings.empty());  // the session's other files were written before it began
+        recovery.warnings.empty());  // the other files were written before the session began
     EXPECT_TRUE(recovery.figures.log.gaps.empty());
     EXPECT_TRUE(replay_session(loss.left, kGoOn, {}).good());
 }
@@ -131,8 +131,8 @@ TEST(PowerLoss, AStateThatSaysCompleteHasAllFilesWheneverPowerFails) {
     disk.synced = look;
     analysis::finish_session(recording::SessionFolder::open(session), result.info, {});
     EXPECT_GT(losses, 10);
-    EXPECT_GE(complete, 1);  // the last synchronisation is that of the state
-    // once finish_session() has returned, everything is there
+    EXPECT_GE(complete, 1);  // the last synchronisation is the one that writes the final state
+    // after finish_session() has returned, all files are on the disk
     look();
     EXPECT_GE(complete, 2);
 }

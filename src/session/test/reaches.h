@@ -1,4 +1,4 @@
-// A small reaching experiment in a folder of its own, which tests change and run.
+// A small reaching experiment in its own folder, which tests modify and run.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ fingers:
   - { name: index, shape: sphere, radius_mm: 6, mass_g: 1 }
 )";
 
-/// Reaches of 50 mm with a rotation, a clamp and a channel, and exits of each kind that needs no
-/// object.
+/// Reaches of 50 mm with a rotation, a clamp and a channel, and with every kind of transition that
+/// needs no object.
 inline const char* const kReaches = R"(title: Reaches
 scene: scene.yaml
 hand: { centre_mm: [0, 0, 120] }
@@ -77,7 +77,7 @@ struct Files {
         ASSERT_NE(at, std::string::npos) << what;
         experiment.replace(at, what.size(), by);
     }
-    /// Keeps only two trials, because all of them take twelve seconds on the real clock.
+    /// Keeps only two trials, because all trials together take twelve seconds on the real clock.
     void keep_first_block() { experiment.resize(experiment.find("    - { name: turned")); }
     Request request(uint64_t seed = 1, const std::string& participant = "S01") {
         folder.write("scene.yaml", scene);
@@ -94,14 +94,14 @@ struct Files {
     }
 };
 
-/// A mistake in a file: `what` is replaced by `by`, and the error must contain `said`.
+/// A mistake in a file: `what` is replaced with `by`, and the error message must contain `said`.
 struct Mistake {
     const char* what;
     const char* by;
     const char* said;
 };
 
-/// Expects that check refuses the file with the mistake, and gives file, line and remedy.
+/// Checks that the file with the mistake is refused, with file, line and remedy.
 inline void expect_refused(Files& files, const Mistake& mistake) {
     files.replace(mistake.what, mistake.by);
     Diagnostics diagnostics;

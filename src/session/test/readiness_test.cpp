@@ -55,7 +55,7 @@ TEST(Readiness, SaysWhenACalibrationOrARegistrationIsOldOrMissing) {
 }
 
 TEST(Readiness, CountsWhatASessionWrites) {
-    // two fingers at 1 kHz take 450 kB a second at most
+    // two fingers at 1 kHz write at most 450 kB per second
     EXPECT_NEAR(bytes_per_hour(plan_of(kSimulated)), 450e3 * 3600, 1);
 }
 

@@ -1,4 +1,4 @@
-// Tests sessions on fakes of real devices, in real time.
+// Tests sessions with fakes of real devices, in real time.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -24,7 +24,7 @@ std::string rig_text(const std::string& backend) {
         out += fmt::format("  - {{finger: {}, backend: {}, options: {{library: {}, {}}}}}\n",
                            i == 1 ? "thumb" : "index", backend, library, which);
     }
-    // a long pause is allowed: busy machines are the subject of another test
+    // long pauses are allowed, because busy machines are the subject of another test
     return out + "settings: { safety: { max_pause_ms: 1000, hand_damping_Ns_m: 100 } }\n";
 }
 
@@ -39,7 +39,7 @@ class RealDevices : public ::testing::TestWithParam<const char*> {
         request.rig = folder.write("rig.yaml", rig_text(GetParam()));
     }
     bool hd() const { return std::string(GetParam()) == "openhaptics"; }
-    /// How often each device was opened.
+    /// Returns how often each device was opened.
     std::vector<int> opened() const {
         std::vector<int> out;
         for (const size_t i : {0, 1}) {
@@ -171,8 +171,8 @@ TEST_P(RealDevices, ThatRefuseToStartLeaveNoSession) {
 }
 
 TEST_P(RealDevices, ASessionIsRecordedAndReplayedToTheBitWithADropOfForce) {
-    // the thumb pushes into the block from the left, the index finger waits; the thumb's device
-    // cuts its force once, and later the index finger's device is lost
+    // the thumb pushes into the block from the left while the index finger waits; the thumb's
+    // device cuts its force once, and later the index finger's device is lost
     constexpr int kDrop = 300;
     constexpr int kLost = 600;
     devices::openhaptics::FakeHd* const fake_hd =

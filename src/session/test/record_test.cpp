@@ -1,4 +1,4 @@
-// Tests that one call makes a whole session, and says once how it ended.
+// Tests that a single call records a whole session and reports only once how it ended.
 #include "session/record.h"
 
 #include <fmt/format.h>
@@ -67,7 +67,7 @@ TEST(Record, TellsOfAFaultFirst) {
         EXPECT_TRUE(recorded.notes[i].starts_with("note: in ")) << recorded.notes[i];
 }
 
-/// The figures of a session's convergence, counted from its log.
+/// Computes the convergence figures of a session from its log.
 recording::Convergence convergence_in(const std::string& log) {
     recording::RawLogReader reader(log);
     recording::Convergence out;
@@ -86,7 +86,7 @@ recording::Convergence convergence_in(const std::string& log) {
     return out;
 }
 
-/// A recorded lift of a block, by this contact solver.
+/// Records a lift of a block with the given contact solver.
 Recorded lift_with(const std::string& solver, const std::string& out) {
     Request request;
     request.file = "experiments/lift-block.yaml";

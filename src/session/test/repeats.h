@@ -1,5 +1,5 @@
-// Whether a session comes out the same when it is run again, and when its recording is replayed;
-// tests and soaks use it.
+// Checks whether a session gives the same results when it is run again and when its recording is
+// replayed. Used by tests and soak tests.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tests that a session is resumed with the same mover of its hand as before, or not at all.
+// Tests that a session is resumed by the same mover of its hand as before, or not at all.
 #include "session/resume.h"
 
 #include "session/test/sessions.h"
@@ -6,7 +6,7 @@
 namespace dihaptic::session::resume_test {
 namespace {
 
-/// Error message when the session cannot be resumed.
+/// Returns the error message if the session cannot be resumed.
 std::string refusal(const std::string& session, Seat seat) {
     try {
         rest_of(session, seat, {});
@@ -16,7 +16,7 @@ std::string refusal(const std::string& session, Seat seat) {
     }
 }
 
-/// Makes the session look like one of an earlier version, which did not record the mover.
+/// Makes the session look like one recorded by an earlier version, which did not store the mover.
 void forget_mover(const std::string& session) {
     const auto folder = recording::SessionFolder::open(session);
     recording::SessionInfo info = folder.read_info();
@@ -46,7 +46,7 @@ TEST(Rest, OfASimulatedPersonIsDoneByTheSamePerson) {
     const Rest rest = rest_of(cut, Seat::terminal, {});
     EXPECT_EQ(rest.plan.moved_by.mover, Mover::simulated_person);
     EXPECT_EQ(rest.plan.person, testing::read_file(cut + "/person.yaml"));
-    // earlier versions recorded a simulated person by that file alone
+    // in earlier versions, only that file showed that a person was simulated
     forget_mover(cut);
     EXPECT_EQ(rest_of(cut, Seat::terminal, {}).plan.moved_by.mover, Mover::simulated_person);
     std::filesystem::remove(cut + "/person.yaml");
@@ -81,7 +81,7 @@ TEST(Rest, IsDoneOnce) {
     const Rest one = rest_of(cut, Seat::terminal, {});
     const Rest other = rest_of(cut, Seat::terminal, {});
     const std::string next = sessions.files.run(one.plan).folder;
-    // one program that was about to resume the session, and one that comes later
+    // one program is about to resume the session, another comes later
     const auto told = [&](const auto& tried) -> std::string {
         try {
             tried();
@@ -96,7 +96,7 @@ TEST(Rest, IsDoneOnce) {
     EXPECT_NE(refusal(cut, Seat::terminal).find("dihaptic resume " + next), std::string::npos);
     std::filesystem::rename(next, sessions.files.folder.file("elsewhere"));
     EXPECT_EQ(refusal(cut, Seat::terminal), "");
-    // a session that was made elsewhere is seen if that folder is named
+    // a resumed session in another folder is found if that folder is given
     EXPECT_THROW(claim(cut, sessions.files.folder.path()), Error);
     EXPECT_NO_THROW(claim(cut, sessions.files.folder.file("nothing")));
 }

@@ -1,4 +1,5 @@
-// Tests that the figures of a session's trials are found while its log is being written.
+// Tests that the figures of a session's trials are computed while the session's log is still being
+// written.
 #include "analysis/running_trials.h"
 
 #include <filesystem>
@@ -12,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Number of cells in which a table differs from trials.csv.
+/// Number of cells in which a table differs from the corresponding cells of trials.csv.
 size_t differences(const Table& table, const CsvFile& whole) {
     size_t out = 0;
     for (size_t row = 0; row < table.rows.size(); ++row) {
@@ -26,7 +27,7 @@ size_t differences(const Table& table, const CsvFile& whole) {
     return out;
 }
 
-/// Feeds a session's log in pieces, and compares what is found with trials.csv.
+/// Feeds a session's log piece by piece, and compares the results with trials.csv.
 void expect_found(const std::string& made, size_t least_rows) {
     const CsvFile whole(made + "/trials.csv");
     ASSERT_GE(whole.rows(), least_rows);
@@ -44,7 +45,7 @@ void expect_found(const std::string& made, size_t least_rows) {
     EXPECT_EQ(trials.table().rows.size(), 0u);
     size_t ended = 0;
     for (size_t at = head; at < bytes.size();) {
-        // pieces that end anywhere, mostly within a chunk
+        // pieces end anywhere, mostly in the middle of a chunk
         const size_t piece = std::min<size_t>(bytes.size() - at, 1 + bytes.size() / 37);
         log.write(bytes.data() + at, static_cast<std::streamsize>(piece)).flush();
         at += piece;

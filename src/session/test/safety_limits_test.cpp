@@ -1,4 +1,5 @@
-// Tests that the rig's safety limits hold, whatever an experiment, a scene or a command line says.
+// Tests that the rig's safety limits cannot be relaxed by an experiment, a scene or the command
+// line.
 #include <gtest/gtest.h>
 
 #include "devices/test/fakes.h"
@@ -15,7 +16,7 @@ fingers: [{ name: thumb, shape: sphere, radius_mm: 8 }]
 hand: { centre_mm: [0, 0, 100], script: [{ name: wait, duration_s: 0.1 }] }
 )";
 
-/// A rig, a scene and an experiment, each with its own `settings: safety:`.
+/// A rig, a scene and an experiment, each with its own `settings: safety:` section.
 struct Files {
     testing::TemporaryFolder folder;
     Request request;
@@ -34,7 +35,7 @@ struct Files {
         request.file =
             folder.write("experiment.yaml", "title: One\nscene: scene.yaml\n" + safety(experiment));
     }
-    /// The error from planning; "" if there is none.
+    /// Returns the error when planning; "" if there is none.
     std::string refusal() const {
         try {
             make_plan(request);
@@ -112,7 +113,7 @@ TEST_P(Limit, IsTightenedByAnyoneAndKeptByAll) {
     EXPECT_EQ(Files(c.rig, c.tighter).refusal(), "");
     EXPECT_EQ(Files(c.rig, "", c.tighter).refusal(), "");
     if (*c.tighter == '\0') return;
-    // a scene's safety settings hold, though a rig's other settings override a scene's
+    // a scene's safety settings apply, although a rig's other settings override those of a scene
     const Files files(c.rig, "", c.tighter);
     const std::string told = describe_safety(make_plan(files.request)).front();
     EXPECT_NE(told.find("scene.yaml:"), std::string::npos) << told;

@@ -1,4 +1,4 @@
-// Tests what a session's director adds to the orders of its trials, without a session.
+// Tests what a session's director adds to the orders of the trials, without running a session.
 #include "session/session_director.h"
 
 #include "session/test/reaches.h"

@@ -54,7 +54,7 @@ std::vector<std::string> shipped() {
     std::vector<std::string> out;
     for (const char* folder : {"scenes", "experiments"}) {
         for (const auto& entry : fs::directory_iterator(folder)) {
-            // this scene's hand does nothing; the hand of its experiment does
+            // the hand of this scene does nothing; only its experiment has a hand that moves
             if (entry.path().stem() == "block-on-stand") continue;
             // these have up to hundreds of trials: ShippedTask runs some of them, src/person/test
             // and test/cli/paradigms_test.py run them with simulated people
@@ -88,7 +88,7 @@ TEST(Session, SoftFingersHoldARodByItsEndAndLetItSwingWhenTheyEaseOff) {
     const testing::TemporaryFolder folder;
     const RunResult result = run("experiments/swing-rod.yaml", folder.path());
     recording::RawLogReader log(result.folder + "/raw.log");
-    // the rod's slope by phase: lift, hold, ease, swing, firm, carry, rest
+    // slope of the rod by phase: lift, hold, ease, swing, firm, carry, rest
     std::array<double, 8> most{};
     std::array<double, 8> last{};
     double speed = 0;
@@ -101,7 +101,7 @@ TEST(Session, SoftFingersHoldARodByItsEndAndLetItSwingWhenTheyEaseOff) {
     }
     EXPECT_LT(most[2], 1);   // held level
     EXPECT_GT(most[4], 80);  // swings
-    EXPECT_GT(last[4], 62);  // until it hangs, as near to upright as friction lets it
+    EXPECT_GT(last[4], 62);  // hangs as steeply as friction permits
     EXPECT_NEAR(last[7], last[4], 2);
     EXPECT_LT(speed, 0.05);
 }
@@ -116,7 +116,7 @@ TEST(Session, ARealClockSessionReplaysToTheBit) {
     EXPECT_EQ(replay.different_ticks, 0) << "first at " << replay.first_difference << " s";
 }
 
-/// Writes the session's log anew, with changed frames and a changed head.
+/// Rewrites the session's log with changed frames and a changed head.
 void rewrite_log(const std::string& folder, const std::function<bool(frame::Frame&)>& change,
                  const std::function<void(recording::LogHead&)>& change_head = {}) {
     const std::string file = folder + "/raw.log";
@@ -230,7 +230,7 @@ TEST(Session, StopsInOrderWhenAsked) {
     const std::atomic<bool> stop{true};
     const RunResult result = run_session(make_plan(request), options, stop, {});
     EXPECT_TRUE(result.interrupted);
-    // the session's other files are not there yet
+    // the session's other files do not exist yet
     const recording::SessionInfo info = recording::SessionFolder::open(result.folder).read_info();
     EXPECT_EQ(info.state, recording::SessionState::running);
     EXPECT_TRUE(info.interrupted);
@@ -257,7 +257,8 @@ TEST(Session, TheOperatorsStopOnTheRealClockIsRecordedAndReplayed) {
     EXPECT_TRUE(replay_session(result.folder, kGoOn, {}).good());
 }
 
-/// Runs a scene on devices with these options, and replays it. `more`: more lines of the rig file.
+/// Runs a scene on devices with these options, and replays it. `more` contains additional lines for
+/// the rig file.
 std::vector<frame::Frame> run_and_replay(const std::string& options, std::vector<std::string> set,
                                          const std::string& more = "") {
     const testing::TemporaryFolder folder;
@@ -332,7 +333,7 @@ TEST(Session, TheRigsWallKeepsHandsInAndReplays) {
     };
     const auto wide = run_and_replay("{workspace_mm: [600, 600, 600]}", {});
     EXPECT_EQ(status_of(wide) & kPushedInward, 0u);
-    // a wall in place of the workspace that the devices state
+    // a wall instead of the workspace stated by the devices
     const auto low =
         run_and_replay("{workspace_mm: [600, 600, 600]}", {"safety.workspace_stiffness_N_m=2000"},
                        "wall: {centre_mm: [0, 0, 10], size_mm: [600, 600, 80]}\n");
@@ -342,7 +343,7 @@ TEST(Session, TheRigsWallKeepsHandsInAndReplays) {
 }
 
 TEST(Session, ReplaysWhatTheEnergyGuardDid) {
-    // a dual spring that is far too stiff shakes: the guard has something to do
+    // a dual spring that is much too stiff shakes, so that the guard has to act
     const auto frames =
         run_and_replay("{}", {"coupling.kind=dual_spring", "coupling.stiffness_N_m=4000",
                               "safety.energy_guard=act", "safety.soft_start_s=0"});
@@ -380,15 +381,15 @@ TEST(Session, ThreeFingersLiftABlockAndGripItAsEachSideDoes) {
     while (const frame::Frame* frame = log.next()) {
         if (frame->phase != 2) continue;
         ++held;
-        // the hand's springs and the couplings' yield to the weight
+        // the springs of the hand and of the couplings yield to the weight
         const double spring = model::series_spring_force(1, 300, 1000);
         EXPECT_NEAR(frame->bodies[1].X_WB.p.z(), 0.08 - kWeight / (3 * spring), 5e-4);
-        // in the hold the thumb presses as hard as the other two fingers together
+        // while holding, the thumb presses as hard as the other two fingers together
         const auto& f = frame->fingers;
         EXPECT_NEAR(f[0].normal_force, f[1].normal_force + f[2].normal_force, 0.02);
         EXPECT_NEAR(frame->grip_force, f[0].normal_force, 0.02);
         EXPECT_NEAR(frame->load_force, kWeight, 0.02);
-        // each of the two is pressed as by springs in series: 300 and 1000 N/m, 7.5 mm beyond touch
+        // each of these two presses like springs in series: 300 and 1000 N/m, 7.5 mm beyond touch
         EXPECT_NEAR(f[1].normal_force, f[2].normal_force, 0.02);
         EXPECT_NEAR(f[1].normal_force, model::series_spring_force(0.0075, 300, 1000), 0.02);
     }
@@ -401,7 +402,7 @@ TEST(Session, AConcaveMeshIsFrozenWithItsPieces) {
     EXPECT_TRUE(fs::exists(result.folder + "/mesh-1-cup.obj.pieces"));
     EXPECT_TRUE(fs::exists(result.folder + "/mesh-2-cup.obj.pieces"));
     EXPECT_FALSE(fs::exists(result.folder + "/mesh-3-fingertip.obj.pieces"));
-    // the pieces are inputs of the session, like its meshes
+    // the pieces are inputs of the session, just like its meshes
     std::ofstream(result.folder + "/mesh-1-cup.obj.pieces") << "other pieces";
     EXPECT_THROW(replay_session(result.folder, kGoOn, {}), Error);
 }
@@ -416,7 +417,7 @@ TEST(Session, EachFingerHasTheProxyThatTheSceneGivesIt) {
         const auto n = static_cast<int>(frame->bodies.size());
         for (const frame::ContactFrame& c : frame->contacts) {
             if (c.a == n + 1 || c.b == n + 1) {
-                // a point proxy touches at its own position; it has since moved on by a tick
+                // a point proxy touches at its own position, but has since moved on by one tick
                 EXPECT_LT((c.p_WC - frame->fingers[1].p_WP).norm(), 1e-3);
                 EXPECT_EQ(c.points, 1);
                 stirred = std::max(stirred, c.normal_force);
@@ -428,7 +429,8 @@ TEST(Session, EachFingerHasTheProxyThatTheSceneGivesIt) {
     EXPECT_GT(mug, 0.02);  // the mug hangs on the hook
 }
 
-/// Largest change of any sent force from tick to tick, over the largest allowed.
+/// Returns the largest change of any sent force between ticks, as a multiple of the largest allowed
+/// change.
 double worst_force_rate(const std::string& folder) {
     recording::RawLogReader log(folder + "/raw.log");
     const double most = frame::Settings{}.safety.max_force_rate * log.head().tick;

@@ -1,4 +1,4 @@
-// Makes short sessions of the same trials, moved by each kind of mover of a simulated hand.
+// Creates short sessions with the same trials, each moved by a different mover of a simulated hand.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,8 +24,8 @@ struct Sessions {
         }
         return plan;
     }
-    /// Makes a session, which ends by itself or, with `cut`, after the first of its trials. A
-    /// session moved by mouse is stopped, since nobody moves the mouse.
+    /// Runs a session, which ends by itself or, with `cut`, after its first trial. A session moved
+    /// by mouse is stopped, since nobody moves the mouse.
     std::string make(Mover mover, bool cut = false, const std::string& participant = "S07") {
         RunOptions options;
         options.out = files.folder.file("sessions");
@@ -34,7 +34,7 @@ struct Sessions {
         const auto look = [&](double share) {
             stop = stop || mover == Mover::mouse || (cut && share > 0.1);
         };
-        // on the real clock the session is cut at the right place
+        // on the real clock, the session is stopped at the right moment
         if (cut || mover == Mover::mouse) options.clock = Clock::real;
         return record(plan(mover, participant), options, stop, look).folder;
     }

@@ -1,4 +1,4 @@
-// Tests, with every solver, that what the hand does with a block in the shipped experiments obeys
+// Tests, with every solver, that what the hand does with blocks in the shipped experiments obeys
 // mechanics.
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ TEST_P(Skills, ABlockRollsOnTheFingertipsThatTurnIt) {
     const double w = 0.02;
     EXPECT_NEAR(hold.hand_turn / (hold.turn - std::atan(r * hold.turn / (w + r))), 1, 0.001);
     EXPECT_NEAR(hold.slip, r * hold.turn,
-                1e-5);  // the distance that the fingers rolled, and nothing more
+                1e-5);  // the distance that the fingers have rolled, but nothing more
     EXPECT_GT(hold.sag, -1e-6);
 }
 
@@ -113,7 +113,7 @@ TEST_P(Skills, ABlockChangesHandsWithoutFalling) {
     EXPECT_LT(found[0].slip, 1e-6);
     EXPECT_LT(found[1].least_slip, 1e-6);
     EXPECT_LT(found[2].slip, 1e-6);
-    // the block's weight passes to the springs of the other hand and of its coupling
+    // the block's weight is transferred to the springs of the other hand and of its coupling
     double before = 0;
     double after = 0;
     recording::RawLogReader log(session + "/raw.log");
@@ -131,7 +131,7 @@ TEST_P(Skills, ABlockOnASpatulaIsFeltAsItsWeightTimesItsDistance) {
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].kind, EpisodeKind::hold);
     EXPECT_LT(found[0].slip, 1e-4);
-    // level, and tilted by 10 degrees; the weight turns it in addition
+    // level, then tilted by 10 degrees; the weight turns the spatula further
     for (const double when : {2.9, 4.9}) {
         recording::RawLogReader log(session + "/raw.log");
         const frame::Frame* frame = log.next();
@@ -141,7 +141,7 @@ TEST_P(Skills, ABlockOnASpatulaIsFeltAsItsWeightTimesItsDistance) {
         EXPECT_NEAR(torque.y() / (0.1 * kGravity * distance), 1, 0.005) << when;
         EXPECT_LT(std::hypot(torque.x(), torque.z()), 1e-4);
         EXPECT_NEAR(frame->fingers[0].f_sent_W.z() / (-0.1 * kGravity), 1, 0.005);
-        // the torque turns the hand, 1 N*m/rad, and the coupling, 1 N*m/rad
+        // the torque turns both the hand and the coupling, with 1 N*m/rad each
         const double tilt = rotation_vector(frame->fingers[0].R_WP).y();
         const double script = when > 4 ? 10 * std::numbers::pi / 180 : 0;
         EXPECT_NEAR(tilt - script, 2 * torque.y(), 1e-3);

@@ -1,5 +1,5 @@
-// Tests the shipped scenes with things to do, each handled by its script's fingers: doors open,
-// drawers slide, scissors close, balls bounce and swing, soft things give way.
+// Tests the shipped scenes that contain things to handle, with the fingers of each scene's script:
+// doors open, drawers slide, scissors close, balls bounce and swing, soft things yield.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace dihaptic::session::things_test {
 namespace {
 
-/// Calls f(frame) for each tick of a scene's script.
+/// Calls f(frame) for each tick while the script of a scene runs.
 void play(const std::string& scene, const std::function<void(const frame::Frame&)>& f) {
     const testing::TemporaryFolder folder;
     Request request;
@@ -32,7 +32,7 @@ double seconds_of(const frame::Frame& frame) {
     return std::chrono::duration<double>(frame.time).count();
 }
 
-/// The smaller of the two fingers' forces on what they hold.
+/// Returns the smaller of the two forces with which the fingers press on what they hold.
 double grip_of(const frame::Frame& frame) {
     return std::min(frame.fingers[0].f_contact_W.norm(), frame.fingers[1].f_contact_W.norm());
 }
@@ -45,7 +45,7 @@ TEST(Things, ADrawerIsPulledOpenAndStays) {
         EXPECT_GE(last, -1e-6);
     });
     EXPECT_GT(most, 0.08);
-    // the spring of 5 N/m pulls it in until friction of 0.4 N holds it
+    // a spring of 5 N/m pulls the drawer back in until friction of 0.4 N holds it
     EXPECT_LT(last, 0.081);
     EXPECT_GT(last, 0.04);
 }
@@ -97,7 +97,7 @@ TEST(Things, ASpringBetweenTwoPlatesIsFelt) {
         grip = grip_of(frame);
     });
     EXPECT_LT(stretch, -0.005);
-    // and the weak spring that keeps the left plate in the middle
+    // the weak spring that keeps the left plate centred also contributes
     EXPECT_NEAR(grip / (-200 * stretch), 1, 0.1);
 }
 
@@ -129,7 +129,7 @@ TEST(Things, ABallBouncesOnARacketLowerEachTime) {
     std::vector<double> heights;
     double before = 0;
     play("bouncing-ball", [&](const frame::Frame& frame) {
-        if (seconds_of(frame) > 1) return;  // then the racket moves
+        if (seconds_of(frame) > 1) return;  // the racket moves after this
         const double v = frame.bodies[2].v_WB.z();
         if (before > 0 && v <= 0)
             heights.push_back(frame.bodies[2].X_WB.p.z() - frame.bodies[1].X_WB.p.z() - 0.041);

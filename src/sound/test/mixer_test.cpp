@@ -1,4 +1,5 @@
-// Tests that the mixer begins and ends sounds at the requested sample, and reports when.
+// Tests that the mixer begins and ends sounds exactly at the requested sample, and that it reports
+// when.
 #include "sound/mixer.h"
 
 #include <gtest/gtest.h>
@@ -10,14 +11,14 @@
 namespace dihaptic::sound::mixer_test {
 namespace {
 
-constexpr double kRate = 1000;  // a sample each millisecond
+constexpr double kRate = 1000;  // one sample per millisecond
 constexpr int64_t kMs = 1000000;
 
 Wave ones(size_t n, float value, bool goes_on = false, double ramp = 0) {
     return {std::vector<float>(n, value), goes_on, ramp};
 }
 
-/// Plays in buffers of these sizes, from time 0 on.
+/// Renders buffers of these sizes, one after the other, starting at time `first`.
 std::vector<float> play(Mixer& mixer, const std::vector<size_t>& buffers, int64_t first = 0) {
     std::vector<float> out;
     for (const size_t n : buffers) {
@@ -80,7 +81,7 @@ TEST(Mixer, RepeatsWhatGoesOnUntilItsEndIsOrdered) {
                                        : 0;
         EXPECT_NEAR(out[i], 0.5 * wanted, 1e-6) << i;
     }
-    // the sound can begin again, and the earlier end does not end it
+    // the sound can begin again, and is not ended by the earlier end
     mixer.order({0, 0, true, 0, 100 * kMs});
     EXPECT_EQ(play(mixer, {40}, 100 * kMs)[30], 0.5f);
 }

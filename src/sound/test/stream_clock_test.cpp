@@ -1,5 +1,5 @@
-// Tests that the times of a stream's buffers are as even as its samples, however uneven the
-// reported ones.
+// Tests that the estimated times of a stream's buffers are as evenly spaced as the samples, however
+// uneven the reported times are.
 #include "sound/stream_clock.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace dihaptic::sound::stream_clock_test {
 namespace {
 
 TEST(StreamClock, FollowsACrystalThatIsOffAndTimesThatShake) {
-    // 128 samples of a crystal that is 100 ppm fast; reported times jitter by 2 ms
+    // 128 samples by a crystal that runs 100 ppm fast; the reported times jitter by 2 ms
     const double rate = 48000;
     const double buffer = 128 / (rate * 1.0001) * 1e9;
     Random random(1, "test");

@@ -1,4 +1,4 @@
-// Tests the samples of tones, noise and files against their definitions.
+// Tests the samples of tones, noise and files against their specifications.
 #include "sound/wave.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kRate = 48000;
 
-/// Power at a frequency, by Goertzel's sum over a Hann window.
+/// Power at a frequency, computed by the Goertzel algorithm with a Hann window.
 double power_at(const std::vector<float>& samples, size_t from, size_t n, double frequency) {
     std::complex<double> sum = 0;
     for (size_t i = 0; i < n; ++i) {
@@ -28,7 +28,7 @@ double power_at(const std::vector<float>& samples, size_t from, size_t n, double
     return std::norm(sum) / static_cast<double>(n);
 }
 
-/// Mean power in the third of an octave around a frequency, in decibels.
+/// Mean power in the third-octave band around a frequency, in decibels.
 double level_around(const std::vector<float>& samples, double frequency) {
     constexpr size_t kWindow = 4800;
     double sum = 0;
@@ -72,7 +72,7 @@ TEST(Wave, AToneThatGoesOnRepeatsWithoutAStep) {
         const Wave wave = make_wave(sound, kRate, 1);
         EXPECT_TRUE(wave.goes_on);
         const size_t n = wave.samples.size();
-        // a sine continues itself: x[i+1] + x[i-1] = 2 cos(w) x[i], over the seam too
+        // a sine satisfies x[i+1] + x[i-1] = 2 cos(w) x[i], including where the wave wraps around
         const double c = 2 * std::cos(2 * std::numbers::pi * frequency / kRate);
         for (const size_t i : {n - 2, n - 1, n, n + 1}) {
             EXPECT_NEAR(wave.samples[(i + 1) % n] + wave.samples[(i - 1) % n],
@@ -129,7 +129,7 @@ TEST(Wave, PinkNoiseThatGoesOnHasNoStepAtItsSeam) {
     EXPECT_LT(std::abs(samples.front() - samples.back()), 4 * usual);
 }
 
-/// A file with a sine of 500 Hz in its left channel and silence in its right one.
+/// Writes a file with a sine of 500 Hz in the left channel and silence in the right channel.
 std::string write_sine(const testing::TemporaryFolder& folder, int rate) {
     const std::string name = folder.file("sine.wav");
     SF_INFO info{};
@@ -155,7 +155,7 @@ TEST(Wave, AFileIsTheMeanOfItsChannelsAtTheDevicesRate) {
         sound.level = 0.5;
         const auto samples = make_wave(sound, kRate, 1).samples;
         ASSERT_NEAR(static_cast<double>(samples.size()), kRate, 2) << rate;
-        // a filter rings at both ends of the file
+        // the resampling filter rings at both ends of the file
         for (size_t i = 4800; i < 43200; ++i) {
             const double t = static_cast<double>(i) / kRate;
             ASSERT_NEAR(samples[i], 0.2 * std::sin(1000 * std::numbers::pi * t), 1e-4)
@@ -179,7 +179,7 @@ std::string file_of(const testing::TemporaryFolder& folder, const std::string& n
     return read_bytes(file, 1'000'000);
 }
 
-/// The error of make_wave() for a sound file of these bytes; "" if it accepts the file.
+/// Returns the error of make_wave() for a sound file with these bytes; "" if the file is accepted.
 std::string refusal_of(const testing::TemporaryFolder& folder, const std::string& bytes) {
     task::SoundSpec sound;
     sound.name = "cut";

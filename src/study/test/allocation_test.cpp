@@ -77,7 +77,7 @@ TEST(Allocation, GivesAFreePlaceToTheNextParticipant) {
     EXPECT_EQ(next.number, 1);
 }
 
-/// Pocock and Simon's rule with chance 1 balances two facts where allocation in turn cannot.
+/// The rule of Pocock and Simon, with chance 1, balances two facts where allocation in turn cannot.
 TEST(Allocation, MinimisationBalancesFacts) {
     auto study = study_of(Method::minimisation, {{"a", 20}, {"b", 20}});
     study.allocation.over = {"sex", "handedness"};

@@ -1,4 +1,5 @@
-// Tests random studies filled with people, some of whom withdraw: each is allocated as designed.
+// Tests random studies that are filled with people, some of whom withdraw, and checks that each
+// person is allocated as designed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +37,8 @@ class RandomStudy {
         file_.order = static_cast<task::Order>(below(4));
     }
 
-    /// Adds people until all groups are full; one in eight of those who take part withdraws.
+    /// Adds people until all groups are full; after each addition, a person withdraws with a
+    /// probability of one in eight.
     void fill() {
         while (active() < file_.people()) {
             add();
@@ -77,8 +79,8 @@ class RandomStudy {
         withdrawn_ = true;
     }
 
-    /// No group exceeds its number, no two people have the same place, and without withdrawals each
-    /// group is within one person of its share.
+    /// Checks that no group exceeds its target number, that no two people have the same place and
+    /// that, without withdrawals, the size of each group is within one person of its share.
     void check() const {
         std::set<std::pair<std::string, int>> places;
         for (const Member& member : roster_.participants) {

@@ -28,7 +28,7 @@ Visit complete(size_t session, const char* started) {
 
 TEST(Seconds, AreThoseOfATimeInAnyZone) {
     EXPECT_EQ(seconds_of("1970-01-02T00:00:00+00:00"), 86400);
-    // summer time began between the two
+    // daylight saving time began between the two times
     EXPECT_EQ(seconds_of("2026-03-29T12:00:00+02:00") - seconds_of("2026-03-28T12:00:00+01:00"),
               23 * 3600);
     EXPECT_EQ(seconds_of("2026-12-31T23:30:00-05:00"), seconds_of("2027-01-01T04:30:00+00:00"));

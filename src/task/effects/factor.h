@@ -1,4 +1,5 @@
-// Factors that make up an effect: scaled by its share, and formatted for reports.
+// Factors that make up an effect: how they scale with its share, and how they are formatted for
+// reports.
 #pragma once
 
 #include <string>
@@ -21,7 +22,7 @@ inline Vec3 part_of(double share, const Vec3& factors) noexcept {
 /// The number in the given unit, or the text of its formula.
 std::string in_words(const Formula& number, double unit = 1);
 std::string in_words(const FormulaVec3& v);
-/// Adds "WHAT factor times" unless the factor is 1.
+/// Appends "WHAT factor times" to `out` unless the factor is 1.
 void say_factor(const std::string& what, const Formula& factor, std::vector<std::string>& out);
 
 }  // namespace dihaptic::task

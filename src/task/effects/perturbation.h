@@ -1,9 +1,11 @@
-// Perturbations as described in an experiment file, and the commands of each in a tick.
+// Perturbations as described in an experiment file, and the commands that each of them gives in a
+// tick.
 //
-// A perturbation acts with a share from 0 to 1, so that it can start abruptly, by a ramp over
-// trials, or by a profile within a trial: angles, forces, and the differences of scales from 1 are
-// proportional to the share. A perturbation consists of effects. Each has a folder in `effects`,
-// with its keys in the file, its checks, its commands, and its words in a report.
+// A perturbation acts with a share from 0 to 1, so that it can start abruptly, ramp up over trials,
+// or follow a profile within a trial: angles, forces, and the differences of scales from 1 are
+// proportional to the share. A perturbation consists of effects. Each kind of effect has a folder
+// in `effects`, which contains its keys in the file, its checks, its commands, and its description
+// in a report.
 #pragma once
 
 #include <algorithm>
@@ -26,14 +28,15 @@ struct State;
 /// Any combination of a visual map, properties of a body and a joint, and loads, under one name.
 struct PerturbationSpec {
     std::string name;
-    Refs<State> during;  ///< states in which the perturbation acts; empty: all `perturbed` ones
+    Refs<State> during;  ///< states in which the perturbation acts; if empty, all states that are
+                         ///< `perturbed`
     std::optional<Profile> profile;
     std::optional<VisualSpec> visual;
     std::optional<BodySpec> body;
     std::optional<JointSpec> joint;
-    std::optional<LoadSpec> field;  ///< the only load, or the first one
+    std::optional<LoadSpec> field;  ///< the only load or, if there are several, the first
     std::vector<LoadSpec> loads;
-    std::string hed;  ///< HED tags of the perturbation's beginning
+    std::string hed;  ///< HED tags for the event that begins the perturbation
     Place place;
 
     /// Calls f(effect) for each of the perturbation's effects.
@@ -44,7 +47,7 @@ struct PerturbationSpec {
         if (joint) f(*joint);
         for (const LoadSpec& load : all_loads()) f(load);
     }
-    /// `field` and `loads` together.
+    /// Returns `field` and `loads` in one list.
     std::vector<LoadSpec> all_loads() const {
         std::vector<LoadSpec> out = loads;
         if (field) out.insert(out.begin(), *field);
@@ -77,27 +80,29 @@ inline bool is_channel(const PerturbationSpec& spec) {
                        [](const LoadSpec& load) { return load.kind == LoadKind::channel; });
 }
 
-/// A perturbation whose names have been looked up. In the tick it neither allocates nor throws.
+/// A perturbation whose names have been looked up. It does not allocate or throw during a tick.
 class Perturbation {
   public:
     Perturbation() = default;
-    /// Problems in the spec go to `diagnostics`.
+    /// Problems in the spec are added to `diagnostics`.
     Perturbation(const PerturbationSpec& spec, const Names& names, const scene::Scene& scene,
                  Diagnostics& diagnostics);
 
-    /// Factor on the perturbation's share at time `t` since entry into its first state [s].
+    /// Factor on the perturbation's share at time `t` after entry into the first state in which it
+    /// acts [s].
     double share_at(double t) const noexcept { return profile_ ? profile_->share(t) : 1; }
-    /// Adds the perturbation's commands to `out`. `regions_W`: centres of the regions [m].
+    /// Adds the perturbation's commands to `out`. `regions_W` are the centres of the regions [m].
     void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                frame::TaskFrame& out) const noexcept;
-    /// Matrix from velocity to the force of the perturbation's loads at share 1 [N*s/m]; zero for
-    /// channels and springs.
+    /// Matrix that maps velocity to the force of the perturbation's loads at share 1 [N*s/m]; zero
+    /// for channels and springs.
     Mat3 field_gain() const;
-    /// Axis of the perturbation's rotation, or of its first curl field; nullopt if it has neither.
+    /// Axis of the perturbation's visual rotation or of its first curl field; nullopt if it has
+    /// neither.
     std::optional<Vec3> axis() const;
     bool has_map() const { return !of<VisualEffect>().empty(); }
     std::span<const Load> loads() const { return of<Load>(); }
-    /// Upper bound of the perturbation's visual delay [s].
+    /// Upper bound on the perturbation's visual delay [s].
     double longest_delay() const { return has_map() ? of<VisualEffect>()[0].longest_delay() : 0; }
     /// The body's properties at share 1; unset if the perturbation changes no body.
     std::optional<frame::PropertiesFrame> properties() const;

@@ -15,14 +15,14 @@ namespace dihaptic::task {
 namespace {
 
 constexpr size_t kLongestText = 2000;
-constexpr int kDeepestText = 40;  // maximum depth of nested brackets
+constexpr int kDeepestText = 40;  // maximum nesting depth of brackets
 
 constexpr std::array kWords{"and", "or", "not", "if", "else"};
 
 }  // namespace
 
-/// Parses the text by precedence, checks the types of its parts, and builds the program. Throws
-/// Fault on a mistake.
+/// Parses the text by operator precedence, checks the types of its parts, and builds the program.
+/// Throws Fault if the text contains a mistake.
 class Compiler : Parts {
   public:
     using Parts::remarks_;
@@ -67,7 +67,7 @@ class Compiler : Parts {
         return token.kind == Token::Kind::number ? fmt::format("{}", token.value) : token.text;
     }
 
-    // grammar, starting with the lowest precedence
+    // grammar rules, starting with the operators of lowest precedence
 
     Value choice() {
         if (++depth_ > kDeepestText)
@@ -133,7 +133,7 @@ class Compiler : Parts {
         }
         return nullptr;
     }
-    /// a < b <= c is a < b and b <= c.
+    /// Parses a chain of comparisons: a < b <= c means a < b and b <= c.
     Value comparison() {
         Value a = sum();
         if (comparator() == nullptr) return a;
@@ -163,7 +163,7 @@ class Compiler : Parts {
         if (a.type == Type::text) check_levels(b, a);
         match(a, b, column);
     }
-    /// Checks that a quoted text is a possible value of the other side.
+    /// Checks that a quoted text is one of the possible values of the other operand.
     void check_levels(const Value& quoted, const Value& other) const {
         if (!quoted.literal || other.levels == nullptr) return;
         const std::string& text = quantities_.text(static_cast<int>(constant_of(quoted.node[0])));
@@ -283,7 +283,7 @@ class Compiler : Parts {
         return std::find(kWords.begin(), kWords.end(), text) != kWords.end();
     }
 
-    /// A number with an optional unit: 5 mm, 20 mm/s, 9.81 m/s^2.
+    /// Parses a number with an optional unit: 5 mm, 20 mm/s, 9.81 m/s^2.
     Value with_unit(const Token& first) {
         double value = first.value;
         if (!is_unit(token())) return number(constant(value), {}, first.column, true);
@@ -303,8 +303,8 @@ class Compiler : Parts {
         }
         return number(constant(value), dimension, first.column);
     }
-    /// The value in the SI unit. A unit that is an integer fraction of the SI unit divides the
-    /// number, so that 700 ms is exactly the double 0.7.
+    /// Converts the value to the SI unit. If the unit is an integer fraction of the SI unit, the
+    /// number is divided, so that 700 ms is exactly the double 0.7.
     static double in_si(double value, double unit) {
         const double parts = std::round(1 / unit);
         return parts > 1 && unit == 1 / parts ? value / parts : value * unit;
@@ -312,7 +312,8 @@ class Compiler : Parts {
     static bool is_unit(const Token& word) {
         return word.kind == Token::Kind::name && find_unit_in_si(word.text).has_value();
     }
-    /// Whether a unit continues with a further unit that is not also the name of a quantity.
+    /// Whether a unit continues with another unit, i.e. one that is not also the name of a
+    /// quantity.
     bool unit_goes_on() const {
         return (token().is("*") || token().is("/")) && is_unit(next()) &&
                !quantities_.knows(next().text);
@@ -417,11 +418,12 @@ class Compiler : Parts {
         const auto taken = static_cast<size_t>(function.operation.arguments);
         for (size_t i = 0; i < taken; ++i) nodes[i] = all[i].node[0];
         out.node[0] = apply(function.operation, nodes);
-        for (size_t i = taken; i < all.size(); ++i)  // min and max, with any number of arguments
+        for (size_t i = taken; i < all.size(); ++i)  // min and max take any number of arguments
             out.node[0] = apply(function.operation, out.node[0], all[i].node[0]);
         return out;
     }
-    /// What a quoted text names, where only a body, a finger, a hand or a region can be meant.
+    /// Resolves a quoted text where only the name of a body, a finger, a hand or a region is
+    /// possible.
     Value named(const Value& value) {
         if (value.type != Type::text || !value.literal) return value;
         const std::string text = quantities_.text(static_cast<int>(constant_of(value.node[0])));
@@ -444,7 +446,7 @@ class Compiler : Parts {
         return number(apply(kAdd, apply(kAdd, products[0], products[1]), products[2]),
                       all[0].dimension * all[1].dimension, name.column);
     }
-    // short forms of conditions, whose arguments are names
+    // short forms of conditions, which take names as arguments
 
     struct ShortForm {
         std::string_view name;
@@ -492,7 +494,7 @@ class Compiler : Parts {
         throw Fault{column, fmt::format("'{}' is neither a finger nor a hand", thing_),
                     "Name a finger or a hand, or leave the argument out."};
     }
-    /// A number after a comma, or `value` if there is no comma.
+    /// Parses a number that follows a comma; returns `value` if there is no comma.
     Value number_argument(double value, const Dimension& dimension) {
         if (!take(",")) return number(constant(value), dimension, token().column);
         Value out = choice();
@@ -501,7 +503,7 @@ class Compiler : Parts {
         match(out, wanted, out.column);
         return out;
     }
-    /// A vector of the thing: its position ("") or another member.
+    /// Returns a vector that belongs to the thing: its position ("") or another member.
     Value of_thing(const std::string& thing, const std::string& member, size_t column) {
         Token name;
         name.kind = Token::Kind::name;
@@ -510,7 +512,7 @@ class Compiler : Parts {
         return quantity(name);
     }
 
-    /// For index.shown, the displayed position is tested.
+    /// Parses inside(thing, region); for index.shown, the displayed position is tested.
     Value inside(const Token& name) {
         constexpr std::string_view kShown = ".shown";
         std::string& first = tokens_[at_].text;
@@ -537,7 +539,7 @@ class Compiler : Parts {
         value.node[0] = apply(kNot, {value.node[0], -1, -1});
         return value;
     }
-    /// Condition that at least this number of fingers press a body.
+    /// Parses a condition that at least `fingers` fingers press a body.
     Value pressed(const Token& name, int fingers) {
         const int body = body_argument();
         const int count = slot(quantities_.pressing(body, fingers_argument()));
@@ -615,7 +617,7 @@ class Compiler : Parts {
         note(Kind::figure);
         return number(slot(out.slot), of.dimension, name.column);
     }
-    /// The number of trials, which follows a comma.
+    /// Parses the number of trials, which follows a comma.
     size_t trials_argument(const Token& name) {
         const size_t column = token().column;
         if (!take(","))
@@ -638,7 +640,7 @@ class Compiler : Parts {
     std::vector<Token> tokens_;
     size_t at_ = 0;
     int depth_ = 0;
-    std::string thing_;  // name in the last thing_argument()
+    std::string thing_;  // name read by the last call of thing_argument()
     Kind latest_ = Kind::draw;
 };
 
@@ -704,7 +706,7 @@ Expression Expression::compile_of(Quantity quantity, const char* what, std::stri
 
 double Expression::operator()(std::span<const double> values) const noexcept {
     std::array<double, kDeepest + 1> stack{};
-    double* top = stack.data();  // position of the next value
+    double* top = stack.data();  // where the next value is stored
     for (const Step& step : program_) {
         if (step.function == nullptr) {
             *top++ = step.slot < 0 ? step.value : values[static_cast<size_t>(step.slot)];

@@ -1,13 +1,13 @@
-// An expression of a task: compiled and checked before the session, evaluated in the tick.
+// An expression in a task: compiled and checked before the session, evaluated in each tick.
 //
 //     grip_force > 2 and block.z - table_top > 5 mm            a condition
 //     0.5 + wait if trial_num > 10 else 200 ms                 a number
 //
-// Every number has a dimension. A number without a unit adopts the SI unit of the quantity to which
-// it is added or with which it is compared; names, and numbers with a unit, have their own
-// dimensions. Operators have the precedence of Python, with ^ for powers, and a < b < c tests both
-// comparisons; % has the sign of its right side. Vectors can be added, subtracted, and multiplied
-// by numbers. Texts can only be compared with == and !=. Functions:
+// Every number has a dimension. A number without a unit takes the SI unit of the quantity that it
+// is added to or compared with; names, and numbers with a unit, have their own dimensions.
+// Operators have the same precedence as in Python, with ^ for powers, and a < b < c tests both
+// comparisons; the result of % has the sign of its right operand. Vectors can be added, subtracted,
+// and multiplied by numbers. Texts can only be compared with == and !=. Functions:
 //
 //     abs min max sqrt exp log sin cos tan atan2 hypot floor ceil round sign clamp
 //     norm(v) distance(a, b) dot(a, b)
@@ -34,14 +34,14 @@ struct LookBack;
 
 class Expression {
   public:
-    /// An empty expression, whose value is 0.
+    /// Constructs an empty expression, whose value is 0.
     Expression() = default;
-    /// Mistakes go to `diagnostics`, at `place` and `key`, with the column in the text; the
-    /// expression is then empty.
+    /// Compiles an expression. Mistakes are added to `diagnostics`, at `place` and `key`, with the
+    /// column in the text, and the returned expression is then empty.
     static Expression compile(std::string_view text, Quantities& quantities, const Place& place,
                               std::string_view key, Diagnostics& diagnostics);
 
-    /// Compiles an expression that must have the unit of a quantity, which `what` describes; an
+    /// Compiles an expression whose unit must be that of `quantity`, which `what` describes. An
     /// empty text gives an empty expression. The error message for any other unit suggests
     /// `example` as the remedy.
     static Expression compile_of(Quantity quantity, const char* what, std::string_view text,
@@ -49,57 +49,61 @@ class Expression {
                                  const std::string& example, Diagnostics& diagnostics);
 
     bool empty() const { return program_.empty(); }
-    /// truth: 0 or 1. text: the text's index, see Quantities::text().
+    /// Type of the value. The value of a truth is 0 or 1; that of a text is its index (see
+    /// Quantities::text()).
     enum class Type { number, truth, text };
     Type type() const { return type_; }
     Dimension dimension() const { return dimension_; }
-    /// Whether the value depends only on the list of trials.
+    /// Whether the value depends only on the trial list.
     bool frozen() const { return latest_ <= Kind::region; }
-    /// Whether the value depends only on the list of trials and on levels of procedures.
+    /// Whether the value depends only on the trial list and on levels that procedures choose.
     bool foreseen() const { return latest_ <= Kind::level; }
-    /// Whether the value depends on quantities measured in the tick.
+    /// Whether the value depends on quantities measured in each tick.
     bool follows_tick() const { return latest_ == Kind::tick; }
-    /// Whether the expression uses the value in the slot.
+    /// Whether the expression uses the value in the given slot.
     bool names(int slot) const;
 
-    /// `values`: those of the Quantities with which the expression was compiled, or a copy of them.
+    /// Evaluates the expression. `values` are those of the Quantities with which the expression was
+    /// compiled, or a copy of them.
     double operator()(std::span<const double> values) const noexcept;
 
-    /// The statistics over earlier trials that the expression uses, each after those that it
-    /// depends on. The caller sets their slots before evaluating the expression.
+    /// The statistics over earlier trials that the expression uses, ordered so that each follows
+    /// those it depends on. The caller must set their slots before evaluating the expression.
     const std::vector<LookBack>& look_backs() const;
 
   private:
     friend class Compiler;
     friend class Parts;
-    static constexpr size_t kDeepest = 32;  // largest number of values on the stack
+    static constexpr size_t kDeepest = 32;  // maximum number of values on the stack
     using Function = double (*)(const double* arguments) noexcept;
-    /// Pushes a value onto the stack, or replaces a function's arguments with its value.
+    /// A step of the program: pushes a value onto the stack, or replaces the arguments of a
+    /// function with its value.
     struct Step {
         Function function = nullptr;
         int arguments = 0;
-        int slot = -1;     // without a function: slot of the value, or -1 for the constant
+        // if there is no function: slot of the value, or -1 for the constant `value`
+        int slot = -1;
         double value = 0;  // the constant
     };
 
     std::vector<Step> program_;
     Type type_ = Type::number;
     Dimension dimension_;
-    Kind latest_ = Kind::draw;                                 // latest kind among the quantities
-    std::shared_ptr<const std::vector<LookBack>> look_backs_;  // null: none
+    Kind latest_ = Kind::draw;                                 // latest kind of the quantities used
+    std::shared_ptr<const std::vector<LookBack>> look_backs_;  // null if there are none
 };
 
-/// A statistic of an expression's values at the ends of the last trials: mean(x, 10), median(x,
-/// 10), sd(x, 10), best(x). Attempts that are to be repeated are left out, and so are unmeasured
-/// values.
+/// A statistic of an expression's values at the end of each of the last trials: mean(x, 10),
+/// median(x, 10), sd(x, 10), best(x). Unmeasured values, and attempts that will be repeated, are
+/// left out.
 struct LookBack {
     enum class Statistic { mean, median, sd, best };
     static constexpr size_t kMost = 1000;
 
     Expression of;
     Statistic statistic = Statistic::mean;
-    size_t count = 0;  ///< number of trials; 0: all of them, for best
-    int slot = -1;     ///< slot of the statistic's value
+    size_t count = 0;  ///< number of trials; 0 for all trials, as in best(x)
+    int slot = -1;     ///< slot that holds the statistic's value
 };
 
 }  // namespace dihaptic::task

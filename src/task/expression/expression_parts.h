@@ -1,5 +1,5 @@
-// Parts builds an expression from its parts after checking that they fit, and writes its program.
-// Constant parts are computed immediately.
+// Parts builds an expression from its parts after checking that they fit together, and writes its
+// program. Constant parts are evaluated immediately.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,13 +23,16 @@ class Parts {
     struct Value {
         Type type = Type::number;
         Dimension dimension;
-        bool literal = false;  // adopts the dimension of the other operand; for a text: quoted
-        std::array<int, 3> node{-1, -1, -1};  // of each component of a vector; else only the first
+        // a number that takes the other operand's dimension, or a quoted text
+        bool literal = false;
+        std::array<int, 3> node{
+            -1, -1,
+            -1};  // the node of each component of a vector; otherwise only the first is used
         size_t column = 1;
         const std::vector<std::string>* levels = nullptr;  // possible values of a text
     };
     struct Node {
-        Operation operation{0, nullptr};  // none: a slot or a constant
+        Operation operation{0, nullptr};  // has no function if the node is a slot or a constant
         std::array<int, 3> arguments{-1, -1, -1};
         int slot = -1;
         double value = 0;
@@ -47,7 +50,7 @@ class Parts {
         const Node& n = nodes_[static_cast<size_t>(node)];
         return n.operation.function == nullptr && n.slot < 0;
     }
-    /// The slot that the node reads; -1 if the node is computed or a constant.
+    /// Returns the slot that the node reads, or -1 if the node is computed or a constant.
     int slot_in(int node) const {
         const Node& n = nodes_[static_cast<size_t>(node)];
         return n.operation.function == nullptr ? n.slot : -1;
@@ -65,7 +68,8 @@ class Parts {
         return static_cast<int>(nodes_.size()) - 1;
     }
     int apply(const Operation& operation, int a, int b) { return apply(operation, {a, b, -1}); }
-    /// Writes the program of a node whose value will be `depth` above the bottom of the stack.
+    /// Appends to `out` the program of a node whose value will be at `depth` above the bottom of
+    /// the stack.
     void emit(int node, size_t depth, std::vector<Expression::Step>& out) const {
         const Node& n = nodes_[static_cast<size_t>(node)];
         if (depth >= Expression::kDeepest || out.size() >= kLongestProgram)
@@ -94,7 +98,8 @@ class Parts {
                                            : "Name a component (.x), or use norm(...) for a "
                                              "vector, and 1 if ... else 0 for a condition."};
     }
-    /// Gives a number without a unit the dimension of the other; the dimensions must then be equal.
+    /// Gives a number without a unit the dimension of the other number, then checks that their
+    /// dimensions are equal.
     void match(Value& a, Value& b, size_t column) {
         if (a.literal) adopt(a, b.dimension);
         if (b.literal) adopt(b, a.dimension);
@@ -104,8 +109,8 @@ class Parts {
             column, fmt::format("one side is {}, but the other is {}", what(a), what(b)),
             "Give both sides the same dimension, and numbers their unit (5 mm, 200 ms, 2 N)."};
     }
-    /// Warns that, for example, 40 compared with a speed is 40 m/s, where 40 mm/s may have been
-    /// meant.
+    /// Gives `value` the dimension. Warns that, for example, 40 compared with a speed is 40 m/s,
+    /// where 40 mm/s may have been meant.
     void adopt(Value& value, const Dimension& dimension) {
         value.dimension = dimension;
         if (value.type != Type::number || !is_constant(value.node[0])) return;
@@ -151,7 +156,7 @@ class Parts {
     Value length(const Value& vector, size_t column) {
         return number(apply(kNorm, vector.node), vector.dimension, column);
     }
-    /// Dimension of a power or a root.
+    /// Returns the dimension of a power or a root.
     Dimension raised(const Value& base, const Value& exponent) const {
         if (!is_constant(exponent.node[0]))
             throw Fault{exponent.column,
@@ -173,12 +178,13 @@ class Parts {
         return {times(base.dimension.m), times(base.dimension.kg), times(base.dimension.s)};
     }
 
-    std::vector<Fault> remarks_;  // warnings about valid but probably unintended text
+    std::vector<Fault> remarks_;  // warnings about text that is valid but probably not intended
 
   private:
-    static constexpr size_t kLongestProgram = 1000;  // largest number of steps
+    static constexpr size_t kLongestProgram = 1000;  // maximum number of steps
 
-    /// A value too large for hand movements, for a quantity that is often given in a smaller unit.
+    /// A quantity that is often given in a smaller unit, and a value of it that is too large for
+    /// hand movements.
     struct Scale {
         Quantity quantity;
         double much;  // [SI]

@@ -13,7 +13,7 @@ bool begins_name(char c) {
     return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_' || (c & 0x80) != 0;
 }
 
-/// Splits the text into words, numbers and signs.
+/// Splits the text into words, numbers and symbols.
 class Lexer {
   public:
     explicit Lexer(std::string_view text) : text_(text) {}
@@ -59,7 +59,7 @@ class Lexer {
         at_ = static_cast<size_t>(result.ptr - text_.data());
     }
 
-    /// A word of letters and digits, with dots between them.
+    /// Reads a word: letters and digits, with dots between the parts.
     void read_name(Token& token) {
         const auto goes_on = [&] {
             if (at_ >= text_.size()) return false;
@@ -69,7 +69,7 @@ class Lexer {
         while (goes_on()) token.text += text_[at_++];
     }
 
-    /// A text, or the quoted name of a thing followed by a member.
+    /// Reads a quoted text, or the quoted name of a thing followed by one of its members.
     void read_quoted(Token& token) {
         token.kind = Token::Kind::quoted;
         const char quote = text_[at_++];

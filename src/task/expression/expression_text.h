@@ -1,4 +1,4 @@
-// The words, numbers and signs of an expression's text.
+// Tokens of an expression's text: words, numbers and symbols.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace dihaptic::task {
 
-/// A fault in the text, with its location; thrown during compilation.
+/// A mistake in the text, with its location; thrown during compilation.
 struct Fault {
-    size_t column;  // from 1
+    size_t column;  // counted from 1
     std::string what;
     std::string remedy;
-    std::vector<std::string> known = {};  // the valid names
+    std::vector<std::string> known = {};  // names that are valid in place of an unknown name
 };
 
 struct Token {
@@ -27,7 +27,7 @@ struct Token {
     }
 };
 
-/// The text's tokens, with an end token. Throws Fault.
+/// Splits the text into tokens, the last of which marks the end. Throws Fault.
 std::vector<Token> tokens_of(std::string_view text);
 
 }  // namespace dihaptic::task

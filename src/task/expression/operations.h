@@ -20,7 +20,7 @@ inline double norm_of(const double* a) noexcept {
     return Vec3(a[0], a[1], a[2]).norm();
 }
 
-/// A function of an array of numbers, and how many it takes.
+/// A function of an array of numbers, and the number of arguments it takes.
 struct Operation {
     int arguments;
     double (*function)(const double* arguments) noexcept;
@@ -44,7 +44,7 @@ inline constexpr Operation kUnequal{2,
 inline constexpr Operation kAnd{2, [](const double* a) noexcept { return a[0] * a[1]; }};
 inline constexpr Operation kOr{2, [](const double* a) noexcept { return double(a[0] + a[1] > 0); }};
 inline constexpr Operation kNot{1, [](const double* a) noexcept { return 1 - a[0]; }};
-/// The first argument if the second is true, otherwise the third.
+/// Returns the first argument if the second is true, otherwise the third.
 inline constexpr Operation kSelect{
     3, [](const double* a) noexcept { return a[1] != 0 ? a[0] : a[2]; }};
 inline constexpr Operation kMin{2,
@@ -54,14 +54,14 @@ inline constexpr Operation kMax{2,
 inline constexpr Operation kSquareRoot{1, [](const double* a) noexcept { return std::sqrt(a[0]); }};
 inline constexpr Operation kNorm{3, norm_of};
 
-/// Rule for the dimensions of a function's arguments, which must all be equal. The value has the
-/// same dimension (same), the dimension of the square root (root), or none (any); or else the
-/// arguments must be pure numbers (pure).
+/// Rule for the dimensions of a function's arguments. With `same`, `root` and `any`, all arguments
+/// must have the same dimension, and the result has that dimension, its square root, or none,
+/// respectively. With `pure`, the arguments must be pure numbers.
 enum class Takes { same, root, any, pure };
 
 struct NamedFunction {
     std::string_view name;
-    int least;  // number of arguments
+    int least;  // minimum number of arguments
     int most;
     Takes takes;
     Operation operation;

@@ -11,10 +11,10 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr int kComponent = sizeof(double);  // distance between components of a vector [bytes]
+constexpr int kComponent = sizeof(double);  // offset between the components of a vector [bytes]
 
-/// The part of `name` after the thing's name and a dot, "" if there is no such part; nullopt if
-/// `name` belongs to something else.
+/// The part of `name` after the thing's name and a dot; "" if `name` is just the thing's name.
+/// Returns nullopt if `name` belongs to something else.
 std::optional<std::string_view> member_of(std::string_view name, const std::string& thing) {
     if (!name.starts_with(thing)) return std::nullopt;
     name.remove_prefix(thing.size());
@@ -23,7 +23,8 @@ std::optional<std::string_view> member_of(std::string_view name, const std::stri
     return name.substr(1);
 }
 
-/// -1 if `member` is `whole`, or the index of the component; nullopt if it is neither.
+/// Returns -1 if `member` is `whole`, the index of the component if `member` is a component of
+/// `whole`, and nullopt otherwise.
 std::optional<int> component_of(std::string_view member, std::string_view whole, int count = 3) {
     if (!member.starts_with(whole)) return std::nullopt;
     std::string_view rest = member.substr(whole.size());
@@ -38,15 +39,16 @@ std::optional<int> component_of(std::string_view member, std::string_view whole,
     return static_cast<int>(i);
 }
 
-/// Whether the contact's body belongs to the thing; fingers come after the scene's bodies.
+/// Whether the contact's body belongs to the thing. Fingers are numbered after the scene's bodies.
 bool is_thing(const Quantities::Thing& thing, int body, int bodies) noexcept {
     const int finger = body - bodies;
     if (finger < 0) return body == thing.body;
     return scene::contains(thing.fingers, static_cast<size_t>(finger));
 }
 
-/// The pinch of a hand: half the sum of its fingers' normal forces along the axis from its first
-/// finger to the middle of the others, computed like the grip_force of all fingers.
+/// The pinch force of a hand: half the sum of the normal forces of its fingers along the axis from
+/// its first finger to the middle of the others, computed in the same way as the grip_force of all
+/// fingers.
 double grip_of(const scene::FingerSet& hand, const frame::Frame& last) noexcept {
     std::array<size_t, scene::kMostFingers> fingers{};
     size_t count = 0;
@@ -106,7 +108,7 @@ struct Quantities::Member {
     double scale;
 };
 
-/// A visitor that finds the offset of each quantity within an item.
+/// A visitor that finds the offset of each quantity within an item of the Frame.
 struct Quantities::Lister {
     const void* item;
     std::vector<Member> members{};
@@ -377,7 +379,8 @@ std::optional<Symbol> Quantities::find_of_body(const std::string& name, std::str
     return found;
 }
 
-/// The middle of a hand, its displayed position, and its speed.
+/// Finds a quantity of a hand: the middle of its handles, the displayed position of this point, or
+/// its speed.
 std::optional<Symbol> Quantities::find_of_hand(const std::string& name, std::string_view member,
                                                const scene::FingerSet& fingers) {
     Source source{.from = Source::From::middle, .a = {-1, fingers}};
@@ -443,7 +446,7 @@ int Quantities::contact_force(const Thing& a, const Thing& b) {
     return slot_of({.from = Source::From::contact, .a = a, .b = b});
 }
 
-/// A component of the middle of the hand's handles, or its speed.
+/// Returns a component of the middle of the hand's handles, or the speed of this point.
 double Quantities::middle(const Source& source, const frame::Frame& last,
                           std::span<const frame::Handle> handles) noexcept {
     const bool speed = source.format == Source::Format::norm;
@@ -476,7 +479,7 @@ double Quantities::read(const Source& source, const frame::Frame& last,
             look_in(handles);
             break;
         case From::turn:
-            // the list does not give the finger of each entry
+            // turns do not store their finger, so there must be one for each finger
             if (last.turns.size() == last.fingers.size()) look_in(last.turns);
             break;
         case From::body:

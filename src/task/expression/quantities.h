@@ -1,22 +1,23 @@
-// The quantities available to the expressions of a task, and their values in a tick.
+// The quantities that the expressions of a task can use, and their values in each tick.
 //
 // Quantities in the Frame have the names given in visit(), such as grip_force and time; those of a
 // finger or body are preceded by its name, such as thumb.handle_position.z and block.velocity.y. A
-// name with components is a vector; .x, .y, .z (and .w for a rotation) select them. In addition,
-// there are
+// name with components is a vector; .x, .y, .z (and .w for a rotation) select them. The other
+// quantities are
 //
 //     block, block.x, block.speed         a body's origin
 //     index, index.x, index.speed         a finger's handle
 //     left, left.x, left.speed            the middle of a hand's handles
 //     index.shown, left.shown             the displayed position
-//     left.grip_force                     pinch of the hand's own fingers
+//     left.grip_force                     pinch force of the hand's own fingers
 //     block.start                         a body's position at the beginning of the trial
 //     hinge.angle, rail.displacement      a joint's coordinate; joints have no position
 //     goal, goal.x, goal.radius           a region
 //     time_in_state, time_in_trial, trial_num, attempt
 //
-// and the names that a task defines: draws, variables, factors. Handles are from this tick,
-// everything else from the last Frame; all in SI units. Unmeasured values are NaN.
+// and the names that a task defines: draws, variables, factors. Handles are read in the current
+// tick, everything else is taken from the last Frame. All values are in SI units. Unmeasured values
+// are NaN.
 #pragma once
 
 #include <array>
@@ -34,15 +35,14 @@
 
 namespace dihaptic::task {
 
-/// The source of a quantity's value. Values of the kinds up to `region` change only from trial to
-/// trial, according to the list of trials; a level lies in a range that is known before the
-/// session.
+/// The source of a quantity's value. Values of the kinds up to `region` change only between trials,
+/// as specified by the trial list; a level lies in a range that is known before the session.
 enum class Kind { draw, factor, region, level, variable, figure, tick };
 
-/// Location of the values to which a name refers.
+/// Location of the values that a name refers to.
 struct Symbol {
     enum class Type { number, text, vector };
-    int slot = -1;  ///< for a vector: slot of x; y and z follow
+    int slot = -1;  ///< for a vector, the slot of x; the slots of y and z follow
     Type type = Type::number;
     Dimension dimension{};
     Kind kind = Kind::tick;
@@ -50,7 +50,7 @@ struct Symbol {
 
 class Quantities {
   public:
-    /// A thing with a position: a body, or one or more fingers.
+    /// A thing that has a position: a body, or one or more fingers.
     struct Thing {
         int body = -1;
         scene::FingerSet fingers{};
@@ -71,53 +71,57 @@ class Quantities {
     Quantities() : Quantities(Names{}) {}
     explicit Quantities(Names names);
 
-    /// The quantity with this name; nullopt if there is none.
+    /// Returns the quantity with this name, or nullopt if there is none.
     std::optional<Symbol> find(std::string_view name);
-    /// Defines a number, which replaces an earlier one of the same name. Its value is 0 until it is
-    /// set.
+    /// Defines a number, replacing any earlier number with the same name. Its value is 0 until it
+    /// is set.
     Symbol define(std::string name, Dimension dimension, Kind kind);
-    /// Defines a text with these possible values; its value is the index of a text, see text().
+    /// Defines a text and its possible values. The value of the quantity is the index of a text,
+    /// see text().
     Symbol define_text(std::string name, std::vector<std::string> levels, Kind kind);
-    /// Defines a number without a name, which expressions find by its slot.
+    /// Defines a number without a name, which expressions refer to by its slot.
     Symbol define_unnamed(Dimension dimension);
     /// Whether expressions may look back over earlier trials (LookBack). Only expressions that are
     /// evaluated at the end of a trial may do so.
     bool looks_back() const { return looks_back_; }
     void let_look_back(bool allowed) { looks_back_ = allowed; }
-    /// Index of a text in comparisons.
+    /// Index that represents a text in comparisons.
     int text(std::string_view text);
     const std::string& text(int index) const { return texts_[static_cast<size_t>(index)]; }
     /// The possible texts of the quantity; null if it was not defined with define_text().
     const std::vector<std::string>* levels(int slot) const;
-    /// Whether the text is a possible value of any quantity.
+    /// Whether the text is a possible value of some quantity.
     bool has_level(std::string_view text) const;
-    /// Whether the task uses this name: for a thing, a region or a defined quantity.
+    /// Whether the task uses this name for a thing, a region or a defined quantity.
     bool knows(std::string_view name) const {
         return symbols_.find(name) != symbols_.end() || thing(name) || region(name);
     }
-    /// All names; below, only those of bodies, fingers and hands; only those of regions; and only
-    /// those of fingers.
+    /// Known names: names() lists all of them, things() those of bodies, fingers and hands,
+    /// regions() those of regions, and fingers() those of fingers.
     std::vector<std::string> names() const;
     std::vector<std::string> things() const;
     const std::vector<std::string>& regions() const { return names_.regions; }
     const std::vector<std::string>& fingers() const { return names_.fingers; }
 
-    /// A body, finger or hand; "" means all fingers, and so does "hand" unless a thing has this
+    /// Returns a body, finger or hand. "" means all fingers, as does "hand" unless a thing has this
     /// name.
     std::optional<Thing> thing(std::string_view name) const;
-    /// Slot of a region's centre: x, y, z, and then its radius; nullopt if there is no such region.
+    /// Slot of a region's centre: x, y and z are followed by the radius. Returns nullopt if there
+    /// is no such region.
     std::optional<int> region(std::string_view name) const;
     int region(size_t index) const { return regions_ + 4 * static_cast<int>(index); }
-    /// Slot of a body's position at the beginning of the trial: x, y, z.
+    /// Slot of a body's position at the beginning of the trial; x, y and z are in consecutive
+    /// slots.
     int start(size_t body) const { return starts_ + 3 * static_cast<int>(body); }
-    /// Slot of the number of these fingers that press the body.
+    /// Slot of the number of fingers, out of the given ones, that press the body.
     int pressing(int body, const scene::FingerSet& fingers);
     /// Slot of the normal force between two things, summed over their fingers [N].
     int contact_force(const Thing& a, const Thing& b);
 
-    /// Slot of the rate at which the number in a slot changes: its difference over the last
-    /// kRateTicks ticks, divided by their duration [1/s]. NaN until there have been that many
-    /// consecutive ticks. nullopt if the number is not measured in the tick.
+    /// Slot of the rate at which the number in a slot changes: the difference in the number over
+    /// the last kRateTicks ticks, divided by their duration [1/s]. The rate is NaN until there have
+    /// been that many consecutive ticks. Returns nullopt if the number is not measured in each
+    /// tick.
     std::optional<int> rate(int slot);
     static constexpr size_t kRateTicks = 10;
 
@@ -130,16 +134,17 @@ class Quantities {
     void set(int slot, const Vec3& value) noexcept {
         for (int i = 0; i < 3; ++i) set(slot + i, value[i]);
     }
-    /// Updates the values that change with the tick.
+    /// Updates the values that change in each tick.
     void update(const frame::Frame& last, std::span<const frame::Handle> handles) noexcept;
     std::span<const double> values() const { return values_; }
-    /// Turns a copy of values(), made before update(), into those of the Frame `last` itself, whose
-    /// handles are from the same tick as everything else. `handles`: of that Frame.
+    /// Converts a copy of values(), made before update(), to the values of the Frame `last` itself,
+    /// in which the handles are from the same tick as everything else. `handles` are those of that
+    /// Frame.
     void read_frame(const frame::Frame& last, std::span<const frame::Handle> handles,
                     std::span<double> values) const noexcept;
 
   private:
-    /// Instruction for reading a value of the tick.
+    /// How to read a value that changes in each tick.
     struct Source {
         enum class From {
             frame,
@@ -158,19 +163,20 @@ class Quantities {
         Format format = Format::f64;
         int slot = -1;
         int index = 0;   ///< index of the finger, body or joint
-        int offset = 0;  ///< from the beginning of the item [bytes]
+        int offset = 0;  ///< offset from the beginning of the item [bytes]
         double scale = 1;
-        Thing a{};  ///< for middle, pressing, contact, grip
+        Thing a{};  ///< the thing, if `from` is middle, pressing, contact or grip
         Thing b{};
-        bool shown = false;  ///< for middle
+        bool shown = false;  ///< whether the displayed position is read, if `from` is middle
 
         bool reads_handles() const { return from == From::handle || from == From::middle; }
     };
     struct Rate {
-        int of = -1;  ///< slot
+        int of = -1;  ///< slot of the number that changes
         int slot = -1;
-        bool of_handle = false;  ///< of a handle: until update(), the rate is from the last Frame
-        std::array<double, kRateTicks> past{};  ///< a ring of values
+        bool of_handle = false;  ///< the number is from a handle: until update(), the rate is that
+                                 ///< of the last Frame
+        std::array<double, kRateTicks> past{};  ///< the last kRateTicks values, in a ring buffer
     };
     struct Member;
     struct Lister;
@@ -199,14 +205,15 @@ class Quantities {
     int regions_ = 0;
     int starts_ = 0;
     std::map<std::string, Symbol, std::less<>> symbols_;
-    std::map<int, std::vector<std::string>> levels_;  // by slot
+    std::map<int, std::vector<std::string>> levels_;  // possible texts, by slot
     std::vector<std::string> texts_;
     std::vector<Source> sources_;
     std::vector<double> values_;
     std::vector<Rate> rates_;
-    std::array<double, kRateTicks> times_{};  // times of the past values of rates [s]
-    size_t ticks_ = 0;                        // number of consecutive ticks
-    int64_t sequence_ = -1;                   // number of the last tick
+    // times at which the past values of rates were read [s]
+    std::array<double, kRateTicks> times_{};
+    size_t ticks_ = 0;       // number of consecutive ticks so far
+    int64_t sequence_ = -1;  // number of the last tick
     bool looks_back_ = false;
 };
 

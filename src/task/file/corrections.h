@@ -1,4 +1,4 @@
-// Specifies which trials show how soon a hand corrects its movement, and which trials they are
+// Specifies the trials that show how soon a hand corrects its movement, and the trials they are
 // compared with.
 #pragma once
 
@@ -13,10 +13,11 @@ struct Condition;
 /// Corrections of a movement in trials in which something happens when the state `after` begins,
 /// compared with matched trials in which nothing happens (analysis/corrections.h).
 struct CorrectionSpec {
-    Ref<scene::Finger> of;       ///< empty: the scene's first finger
-    Ref<State> after;            ///< time is counted from the beginning of this state
-    Vec3 axis = Vec3::UnitX();   ///< direction of corrections, of any length
-    RefList<Condition> matched;  ///< empty: trials of the same condition without a perturbation
+    Ref<scene::Finger> of;  ///< finger whose handle corrects; if empty, the scene's first finger
+    Ref<State> after;       ///< state from whose beginning time is counted
+    Vec3 axis = Vec3::UnitX();   ///< direction of the corrections; need not be a unit vector
+    RefList<Condition> matched;  ///< conditions of the matched trials; if empty, trials of the same
+                                 ///< condition without a perturbation
     Place place;
 
     template <class Visitor>

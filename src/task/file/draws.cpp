@@ -18,7 +18,8 @@ namespace dihaptic::task {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kLeastShare = 0.01;  // share of a normal distribution that truncation must leave
+// smallest share of a normal distribution that truncation may leave
+constexpr double kLeastShare = 0.01;
 
 double below(double z) {
     return std::erfc(-z / std::sqrt(2.0)) / 2;
@@ -37,7 +38,7 @@ double normal(const NormalDraw& d, Random& random) {
     }
 }
 
-/// Index of a value, drawn with the values' weights.
+/// Draws the index of a value, using the weights of the values.
 size_t chosen(size_t values, const std::vector<double>& weights, Random& random) {
     if (weights.empty()) {
         const auto i = static_cast<size_t>(random.uniform(0, static_cast<double>(values)));
@@ -46,7 +47,7 @@ size_t chosen(size_t values, const std::vector<double>& weights, Random& random)
     double left = random.uniform(0, std::accumulate(weights.begin(), weights.end(), 0.0));
     size_t i = 0;
     while (i + 1 < values && left >= weights[i]) left -= weights[i++];
-    // rounding must not select a value of weight 0
+    // prevents rounding from selecting a value of weight 0
     while (i > 0 && weights[i] <= 0) --i;
     return i;
 }

@@ -1,11 +1,11 @@
-// Random numbers of a task: they are drawn for each trial from the seed, frozen in trial-list.csv,
+// Random numbers in a task: they are drawn for each trial using the seed, frozen in trial-list.csv,
 // and available to formulas by name (docs/files.md).
 //
 //     uniform       from + u (to - from)                          u uniform in [0, 1)
 //     exponential   from - m ln(1 - u (1 - exp(-(to - from) / m)))
-//                   m is the mean above `from` if there is no `to`; the hazard is then flat. With
-//                   `to` it rises before the end, like that of every bounded distribution
-//     normal        mean + sd z, drawn again until it lies between from and to
+//                   without `to`, m is the mean distance above `from`, and the hazard is flat. With
+//                   `to`, the hazard rises before the end, as in every bounded distribution
+//     normal        mean + sd z, redrawn until the value lies between from and to
 //     permutation   the values in random order, then in a new random order, restarted in each
 //                   block: in n trials, each of k values occurs n / k times, rounded down or up
 #pragma once
@@ -49,7 +49,7 @@ struct NormalDraw {
 };
 
 struct ExponentialDraw {
-    double mean = 1;  ///< mean distance above `from` if there were no `to`
+    double mean = 1;  ///< mean distance above `from` that the distribution would have without `to`
     double from = 0;
     std::optional<double> to;
 
@@ -63,16 +63,17 @@ struct ExponentialDraw {
     }
 };
 
-/// A number or a text for each trial, in the unit at the end of its name.
+/// A number or a text drawn for each trial. A number is in the unit at the end of the draw's name.
 struct DrawSpec {
     std::string name;
     std::optional<UniformDraw> uniform;
     std::optional<NormalDraw> normal;
     std::optional<ExponentialDraw> exponential;
     std::vector<std::string> choice;
-    std::vector<double> weights;  ///< of the values in `choice`; empty: all equally likely
+    /// Weights of the values in `choice`; if empty, all are equally likely.
+    std::vector<double> weights;
     std::vector<std::string> permutation;
-    bool participant = false;  ///< the value is the participant's number
+    bool participant = false;  ///< whether the value is the participant's number
     Place place;
 
     template <class Visitor>
@@ -99,14 +100,14 @@ struct DrawSpec {
     const std::vector<std::string>& values() const { return choice.empty() ? permutation : choice; }
 };
 
-/// Whether these values are texts: they are treated as numbers only if all of them are numbers.
+/// Whether the values are texts. They are treated as numbers only if all of them are numbers.
 bool are_texts(const std::vector<std::string>& values);
 
 void check(const DrawSpec& draw, Diagnostics& diagnostics);
 
-/// A value for each trial, in the unit of the draw's name; for texts, their index. `blocks`: number
-/// of each trial's block. Values have only the digits that a table stores, so that a session
-/// resumed from its frozen list uses the same values.
+/// Draws a value for each trial: a number in the unit of the draw's name or, for texts, an index.
+/// `blocks` gives the number of each trial's block. Values have only as many digits as a table
+/// stores, so that a session resumed from its frozen list uses the same values.
 std::vector<double> drawn(const DrawSpec& draw, std::span<const int> blocks, int participant,
                           uint64_t seed);
 

@@ -9,7 +9,7 @@
 namespace dihaptic::task {
 namespace {
 
-/// Checks that a path has exactly one form.
+/// Checks that the path is given in exactly one form.
 void check_form(const DriveSpec& spec, Diagnostics& diagnostics) {
     const int forms =
         spec.to.has_value() + spec.by.has_value() + !spec.along.empty() + spec.path.has_value();
@@ -24,7 +24,7 @@ void check_form(const DriveSpec& spec, Diagnostics& diagnostics) {
                           "Leave it out, or give to_mm or by_mm.");
 }
 
-/// Checks that the form's timing is given, and only once.
+/// Checks that the timing of the path is given exactly once.
 void check_times(const DriveSpec& spec, Diagnostics& diagnostics) {
     if (spec.path && spec.duration)
         diagnostics.error(spec.place, "duration", "is already given by the times of the path",

@@ -1,5 +1,5 @@
-// Drives: paths along which a state moves a body regardless of contact forces, such as a platform
-// that rises, a plate that shakes, or an object that a partner hands over.
+// Drives: a drive moves a body along a path while a state lasts, regardless of contact forces.
+// Examples are a platform that rises, a plate that shakes, and an object that a partner hands over.
 #pragma once
 
 #include <array>
@@ -18,9 +18,9 @@
 
 namespace dihaptic::task {
 
-/// A body's path while a state lasts: to a position, by a displacement, or as given by expressions
-/// or a table. On the first two kinds of path the body can also rotate; it can also rotate in
-/// place.
+/// The path of a body while a state lasts: to a position, by a displacement, or as given by
+/// expressions or a table. On paths of the first two kinds, the body can also rotate; it can also
+/// rotate in place.
 struct DriveSpec {
     Ref<scene::Body> body;
     std::optional<FormulaVec3> to;    ///< final position of the body's origin [m]
@@ -63,13 +63,13 @@ struct DriveSpec {
 /// A drive, ready to be evaluated.
 class Drive {
   public:
-    /// `body`: index in the scene; `quantities`: those that expressions may use.
+    /// `body` is the body's index in the scene; `quantities` are those that expressions may use.
     Drive(const DriveSpec& spec, int body, Quantities& quantities, Diagnostics& diagnostics);
 
     int body() const noexcept { return body_; }
-    /// Pose of the body at time `t` since the beginning of the state [s]; `from`: its pose at that
-    /// beginning. `of(Formula)` returns the formula's value in this trial; `values`: of the
-    /// quantities.
+    /// Pose of the body at time `t` after the beginning of the state [s]. `from` is the body's pose
+    /// at that beginning, `of(Formula)` returns the formula's value in this trial, and `values` are
+    /// those of the quantities.
     template <class Of>
     Pose at(double t, const Pose& from, const Of& of,
             std::span<const double> values) const noexcept {
@@ -97,7 +97,7 @@ class Drive {
     Vec3 axis_ = Vec3::UnitZ();
     Formula angle_{};
     Course course_;
-    std::vector<Expression> along_;  // three expressions, or none
+    std::vector<Expression> along_;  // one expression for each of x, y and z, or empty
     std::optional<SampledPath> path_;
 };
 

@@ -7,7 +7,7 @@ namespace dihaptic::task {
 
 namespace {
 
-/// Turns the scores of a state's form into custom measures of the task.
+/// Adds the scores of a state's form to the custom measures of the task.
 void take_scores(State& state, std::vector<CustomMeasure>& measures) {
     for (const Score& score : state.form->scores) {
         const auto same = [&](const CustomMeasure& m) {
@@ -27,7 +27,7 @@ void take_scores(State& state, std::vector<CustomMeasure>& measures) {
     state.form->scores.clear();
 }
 
-/// Reads the files that states name, and stores their contents in the states.
+/// Reads the files named in states, and stores their contents in the states.
 void read_files(Task& task, const std::string& folder, Diagnostics& diagnostics) {
     for (State& state : task.states) {
         for (DriveSpec& drive : state.drives) {

@@ -1,5 +1,5 @@
-// The experiment file (docs/files.md): it gives the scene, the rig, and the movement or task of the
-// hand.
+// The experiment file (docs/files.md): it specifies the scene, the rig, and the hand's movement or
+// task.
 #pragma once
 
 #include <optional>
@@ -12,18 +12,20 @@
 
 namespace dihaptic::task {
 
-/// A recorded movement that pulls the simulated fingers, and the block that is placed where they
-/// closed.
+/// A recorded movement that pulls the simulated fingers, and the block that is placed where the
+/// fingers closed.
 struct MovementSpec {
-    std::string file;  ///< CSV, relative to the experiment file; overridden by --movement
+    std::string file;  ///< CSV file, relative to the experiment file; overridden by --movement
     hand::RecordingAxes axes = hand::RecordingAxes::world;
-    std::string block;  ///< a box of the scene, rotated and sized to fit between the fingers
-    double squeeze =
-        0.006;  ///< distance that each recorded finger moves beyond the block's face [m]
-    std::optional<double> width;     ///< along the grasp axis; unset: from aperture and squeeze [m]
-    std::optional<double> grasp_at;  ///< time when the fingers closed; unset: detected [s]
-    Place place;                     ///< location of the key `block` in the file
-    Place file_place;                ///< location of the key `file` in the file
+    std::string block;  ///< box in the scene, which is rotated and sized to fit between the fingers
+    /// Distance that each recorded finger moves beyond the block's face [m].
+    double squeeze = 0.006;
+    std::optional<double> width;  ///< width of the block along the grasp axis; if unset, computed
+                                  ///< from aperture and squeeze [m]
+    /// Time at which the fingers closed; if unset, detected from the movement [s].
+    std::optional<double> grasp_at;
+    Place place;       ///< location of the key `block` in the file
+    Place file_place;  ///< location of the key `file` in the file
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -55,10 +57,10 @@ struct MovementSpec {
 struct Experiment {
     std::string title;
     std::string scene;  ///< scene file, relative to the experiment file
-    std::string rig;    ///< rig file, relative to the experiment file; empty: ideal devices
+    std::string rig;    ///< rig file, relative to the experiment file; if empty, devices are ideal
     std::optional<hand::HandSpec> hand;  ///< replaces the scene's hand
     std::optional<MovementSpec> movement;
-    std::optional<Task> task;  ///< trials, in place of the hand's script
+    std::optional<Task> task;  ///< trials, which replace the hand's script
     Study study;
     Node settings;
     Place place;
@@ -83,14 +85,16 @@ struct Experiment {
     }
 };
 
-/// Reads an experiment file, the paths of its drives and its forms, but not the other files that it
-/// refers to. Problems go to `diagnostics`.
+/// Reads an experiment file, the paths of its drives and its forms, but no other files to which it
+/// refers. Problems are added to `diagnostics`.
 Experiment read_experiment(const std::string& file, Diagnostics& diagnostics);
 
 enum class FileKind { scene, rig, experiment, movement, population, study, form, unknown };
-/// Identifies the kind of a file by its name and its keys. Throws Error if the file cannot be read.
+/// Determines the kind of a file from its name and its keys. Throws Error if the file cannot be
+/// read.
 FileKind kind_of(const std::string& file);
-/// Whether a file is a movement, judged by its ending: .csv or .tsv, as motion capture systems use.
+/// Whether a file is a movement, judging by its extension: .csv, or .tsv as used by motion capture
+/// systems.
 bool is_movement(const std::string& file);
 
 }  // namespace dihaptic::task

@@ -1,5 +1,6 @@
 // Forms: a state shows several questions on one page, such as a questionnaire or a consent form,
-// and the answers may be changed until the page is confirmed. A form is usually a file of its own.
+// and the answers may be changed until the page is confirmed. A form is usually stored in its own
+// file.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace dihaptic::task {
 
-/// A number that is computed from the answers.
+/// A number computed from the answers.
 struct Score {
     std::string name;  ///< name of the score, which may end in its unit
     std::string of;    ///< expression over the answers
@@ -42,9 +43,9 @@ struct Form {
     }
 };
 
-/// The form of a state.
+/// The form that a state shows.
 struct FormSpec : Form {
-    std::string file;  ///< path, relative to the experiment file
+    std::string file;  ///< path of the form file, relative to the experiment file
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -54,13 +55,15 @@ struct FormSpec : Form {
         Form::visit(v);
     }
 
-    /// Reads the file, if there is one, and then clears its name. Relative paths start at `folder`.
+    /// Reads the form file, if `file` names one, and then clears `file`. Relative paths start at
+    /// `folder`.
     void read_file(const std::string& folder, Diagnostics& diagnostics);
 };
 
-/// Reads a form file. Throws Error if the file cannot be read; other problems go to `diagnostics`.
+/// Reads a form file. Throws Error if the file cannot be read; other problems are added to
+/// `diagnostics`.
 Form read_form(const std::string& file, Diagnostics& diagnostics);
-/// Problems within the form itself go to `diagnostics`.
+/// Checks the form by itself. Problems are added to `diagnostics`.
 void check(const Form& form, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::task

@@ -11,15 +11,15 @@
 namespace dihaptic::task {
 namespace {
 
-/// Description of a character that no tag can contain; "" for any other character.
+/// Returns a description of `c` if no tag can contain this character, otherwise "".
 std::string foreign(char c) {
     if (c == '\t' || c == '\n') return "of a tab or a line break";
     return std::string_view("[]{}~\"").find(c) == std::string_view::npos ? ""
                                                                          : fmt::format("'{}'", c);
 }
 
-/// Tags that can be used only in definitions or for whole events, or that refer to another column's
-/// cell.
+/// Tags that cannot be used here: they belong in definitions or to whole events, or refer to a cell
+/// of another column.
 constexpr std::array<std::string_view, 10> kNotHere{
     "onset",      "offset",   "inset", "def", "def-expand",
     "definition", "duration", "delay", "n/a", "event-context"};
@@ -35,12 +35,12 @@ std::string fault_of_tag(std::string tag) {
     return fmt::format("has the tag '{}', which the export cannot use", tag);
 }
 
-/// Reads tags and groups of tags, one after the other.
+/// Reads a list of tags and groups of tags.
 class HedReader {
   public:
     explicit HedReader(const std::string& text) : text_(text) {}
 
-    /// The first fault; "" if there is none.
+    /// Returns the first fault in the text, or "" if there is none.
     std::string fault() {
         const std::string first = list();
         if (!first.empty()) return first;
@@ -90,7 +90,7 @@ class HedReader {
     size_t at_ = 0;
 };
 
-/// The fault of the tags; "" if they have none.
+/// Returns the first fault in the tags, or "" if there is none.
 std::string fault_of(const std::string& tags) {
     for (const char c : tags) {
         if (const std::string what = foreign(c); !what.empty())

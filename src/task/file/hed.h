@@ -1,5 +1,5 @@
-// Tags of the Hierarchical Event Descriptors (HED, www.hedtags.org), by which programs compare
-// events of different experiments. The export to BIDS writes them with each event.
+// Tags from Hierarchical Event Descriptors (HED, www.hedtags.org), which allow programs to compare
+// events from different experiments. The export to BIDS writes the tags of each event.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace dihaptic::task {
 
-/// Reports tags that no HED schema accepts for an event: those with unbalanced parentheses, a
-/// missing comma, an empty or repeated tag, or a character or tag that has another meaning. Whether
-/// a tag exists depends on the schema; a HED validator checks this in the exported data set.
+/// Reports tags that no HED schema accepts for an event: unbalanced parentheses, a missing comma,
+/// an empty or repeated tag, or a character or tag with another meaning. Whether a tag exists
+/// depends on the schema; a HED validator checks this in the exported data set.
 void check_hed(const std::string& tags, const Place& place, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::task

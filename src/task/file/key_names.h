@@ -1,4 +1,4 @@
-// Finds keys by name, for programs and simulated people that press them.
+// Finds keys by name, for programs and simulated people that press keys.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,8 @@
 
 namespace dihaptic::task {
 
-/// The key with a name: "Enter", "Backspace" or one character; nullopt if there is no such key.
+/// Returns the key with the given name, i.e. "Enter", "Backspace" or a single character, or nullopt
+/// if there is no such key.
 inline std::optional<char> key_named(std::string_view name) {
     if (name == "Enter") return Rating::kEnter;
     if (name == "Backspace") return Rating::kBack;

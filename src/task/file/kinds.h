@@ -1,4 +1,4 @@
-// The parts of a task whose keys depend on their kind (base/kinds.h).
+// The parts of a task that have different keys depending on their kind (base/kinds.h).
 #pragma once
 
 #include "base/kinds.h"

@@ -31,7 +31,7 @@ void check_kind(const MotorSpec& spec, const scene::Joint& joint, Diagnostics& d
     refuse(!slides && spec.most_force, "most_force", moves, "most_torque_Nm");
 }
 
-/// Checks that a motor with a course has a destination, a duration and a limit of force.
+/// Checks that a motor that follows a course has a destination, a duration and a force limit.
 void check_form(const MotorSpec& spec, const scene::Joint& joint, Diagnostics& diagnostics) {
     const auto error = [&](const char* key, const std::string& problem, const std::string& remedy) {
         diagnostics.error(spec.place, key, problem, remedy);

@@ -1,6 +1,6 @@
-// Motors: they act on a joint while a state lasts, such as a lever that rotates under the hand, or
-// a handle that pushes back. A motor moves the joint along a course with a limited force, or
-// applies a given force, or both.
+// Motors: a motor acts on a joint while a state lasts, e.g. to rotate a lever under the hand or to
+// push a handle back. The motor moves the joint along a course with a limited force, applies a
+// given force, or both.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@
 
 namespace dihaptic::task {
 
-/// A joint's course while a state lasts, the force applied to it, or both.
+/// The course of a joint while a state lasts, the force applied to the joint, or both.
 struct MotorSpec {
     Ref<scene::Joint> joint;
     std::optional<Formula> angle;         ///< final angle of a hinge [rad]
@@ -26,10 +26,10 @@ struct MotorSpec {
     std::optional<Formula> duration;      ///< duration of the motion [s]
     Formula delay = 0;                    ///< [s]
     ProfileShape shape = ProfileShape::minimum_jerk;
-    std::string follow;                  ///< target coordinate, evaluated in each tick
+    std::string follow;  ///< expression for the target coordinate, evaluated in each tick
     std::optional<Formula> most_force;   ///< limit of the force that moves the joint [N]
     std::optional<Formula> most_torque;  ///< [N*m]
-    std::string push;                    ///< additional force or torque, evaluated in each tick
+    std::string push;  ///< expression for an additional force or torque, evaluated in each tick
     Place place;
 
     template <class Visitor>
@@ -64,14 +64,14 @@ struct MotorSpec {
 /// A motor, ready to be evaluated.
 class Motor {
   public:
-    /// `index`: of the joint in the scene; `quantities`: those that expressions may use.
+    /// `index` is the joint's index in the scene; `quantities` are those that expressions may use.
     Motor(const MotorSpec& spec, const scene::Joint& joint, int index, Quantities& quantities,
           Diagnostics& diagnostics);
 
     int joint() const noexcept { return joint_; }
-    /// Command of the motor at time `t` since the beginning of the state [s]; `from`: the joint's
-    /// coordinate at that beginning. `of(Formula)` returns the formula's value in this trial;
-    /// `values`: of the quantities.
+    /// Command of the motor at time `t` after the beginning of the state [s]. `from` is the joint's
+    /// coordinate at that beginning, `of(Formula)` returns the formula's value in this trial, and
+    /// `values` are those of the quantities.
     template <class Of>
     frame::MotorFrame at(double t, double from, const Of& of,
                          std::span<const double> values) const noexcept {
@@ -90,13 +90,14 @@ class Motor {
     }
 
   private:
-    /// `otherwise` replaces the value of an expression that happens to divide by zero.
+    /// Returns `value` or, if an expression has divided by zero, `otherwise`.
     static double finite_or(double otherwise, double value) noexcept {
         return std::isfinite(value) ? value : otherwise;
     }
 
     int joint_;
-    bool goes_ = false;  ///< the motor has a destination; otherwise it follows follow_, if set
+    /// Whether the motor has a destination; if not, it follows follow_, if set.
+    bool goes_ = false;
     Formula to_{};
     Course course_;
     Formula most_{};

@@ -11,18 +11,19 @@
 namespace dihaptic::task {
 namespace {
 
-/// A trial's answer is processed within a tick; for the largest grid this takes 0.3 ms.
+/// Maximum number of grid cells. A trial's answer is processed within a tick, which takes 0.3 ms
+/// for the largest grid.
 constexpr size_t kLargestGrid = 200'000;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The range of levels in the file; infinite if the file gives none.
+/// The range of levels given in the file; infinite if none is given.
 struct Range {
     double least = -kInfinity;
     double most = kInfinity;
 };
 
-/// Called in the tick, so it allocates nothing.
+/// Returns the range given in the file. Called during a tick, so it must not allocate.
 Range given_range(const ProcedureSpec& spec) {
     const auto limits = [](const auto& s) {
         return Range{s.lowest.value_or(-kInfinity), s.highest.value_or(kInfinity)};
@@ -40,13 +41,13 @@ Range given_range(const ProcedureSpec& spec) {
     return {*least, *most};
 }
 
-/// The range of shares, or of their logarithms; infinite for a named number.
+/// Returns the range of shares or of their logarithms; infinite if the level is a named number.
 Range share_range(const ProcedureSpec& spec) {
     if (!spec.level.empty()) return {};
     return {spec.logarithmic ? -kInfinity : 0, spec.logarithmic ? 0.0 : 1.0};
 }
 
-/// Number of cells of quest_plus's grid; 0 for the other procedures.
+/// Returns the number of cells in the grid of quest_plus, or 0 for other procedures.
 size_t grid_cells(const ProcedureSpec& spec) {
     if (!spec.quest_plus) return 0;
     const QuestPlusSpec& s = *spec.quest_plus;
@@ -86,7 +87,7 @@ void check_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     }
 }
 
-/// Reports keys that a named number requires, or that only a named number can have.
+/// Reports missing keys that a named number requires, and keys that only a named number can have.
 void check_number(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     if (spec.level.empty()) {
         if (spec.perturb.empty())
@@ -108,7 +109,7 @@ void check_number(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns about levels at which trials can run, but whose answers cannot be fitted.
+/// Warns about levels at which trials can run but whose answers cannot be fitted.
 void warn_of_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     const double lowest = spec.least();
     if (model::takes(spec.fitted(), lowest)) return;

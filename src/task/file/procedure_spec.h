@@ -1,5 +1,6 @@
-// Procedures (procedures/) as described in an experiment file. In each trial, the answers so far
-// determine the share of a perturbation, from 0 to 1, or a named number for use in formulas.
+// Procedures (procedures/) as described in an experiment file. In each trial, a procedure uses the
+// answers so far to choose the share of a perturbation, from 0 to 1, or a named number for use in
+// formulas.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 namespace dihaptic::task {
 
-/// A level beyond this, in any unit, is taken for a typing error.
+/// Largest absolute level; a larger value, in any unit, is assumed to be a typing error.
 constexpr double kFurthestLevel = 1e6;
 
 struct StaircaseSpec {
@@ -23,7 +24,8 @@ struct StaircaseSpec {
     double down_over_up = 1;
     std::optional<double> lowest;
     std::optional<double> highest;
-    int reversals = 0;  ///< number after which the staircase ends; 0: it ends after `trials`
+    /// Number of reversals after which the staircase ends; if 0, it ends after `trials`.
+    int reversals = 0;
     int skipped_reversals = 0;
 
     template <class Visitor>
@@ -98,7 +100,7 @@ struct QuestSpec {
     }
 };
 
-/// Equally spaced values, both ends included.
+/// Equally spaced values, including both ends.
 struct GridSpec {
     double from = 0;
     double to = 0;
@@ -140,7 +142,8 @@ struct QuestPlusSpec {
     }
 };
 
-/// Levels that do not depend on the answers: each occurs once in every round, in random order.
+/// Levels that do not depend on the answers: each level occurs once in every round, in random
+/// order.
 struct ConstantSpec {
     std::vector<double> levels;
 
@@ -154,8 +157,8 @@ struct ConstantSpec {
     }
 };
 
-/// Kind of question, which determines the guess rate. yes_no: presence or direction; the guess rate
-/// then equals the lapse rate. 2afc: a choice between two intervals.
+/// Kind of question, which determines the guess rate. yes_no: a question about presence or
+/// direction, for which the guess rate equals the lapse rate. 2afc: a choice between two intervals.
 enum class Design { yes_no, two_alternatives };
 constexpr auto enum_names(Design) {
     return std::array{"yes_no", "2afc"};
@@ -165,17 +168,20 @@ struct PerturbationSpec;
 
 struct ProcedureSpec {
     std::string name;
-    Refs<PerturbationSpec> perturb;  ///< those whose share is the level, unless `level` is given
-    std::string level;  ///< name of a number, which gives the unit of levels; empty: a share
-    std::optional<double> standard;  ///< value of the number where no procedure chooses it
-    bool logarithmic = false;        ///< the share or the number is 10^level
-    std::string yes;                 ///< the outcome whose probability grows with the level
+    /// Perturbations whose share is the level, unless `level` is given.
+    Refs<PerturbationSpec> perturb;
+    std::string level;  ///< name of the number chosen, which gives the unit of levels; if empty, a
+                        ///< share is chosen
+    std::optional<double> standard;  ///< value of the number wherever no procedure chooses it
+    bool logarithmic = false;        ///< whether the share or the number is 10^level
+    std::string yes;                 ///< outcome whose probability increases with the level
     std::string no;
-    int trials = 40;  ///< largest number of trials
+    int trials = 40;  ///< maximum number of trials
     std::optional<model::Sigmoid> sigmoid;
     std::optional<Design> design;
-    double guess = 0.5;           ///< probability of "yes" far below the threshold
-    bool guess_is_lapse = false;  ///< the guess rate equals the lapse rate instead
+    double guess = 0.5;  ///< probability of "yes" far below the threshold
+    /// Whether the guess rate equals the lapse rate, in place of `guess`.
+    bool guess_is_lapse = false;
     std::optional<StaircaseSpec> staircase;
     std::optional<QuestSpec> quest;
     std::optional<QuestPlusSpec> quest_plus;
@@ -209,22 +215,22 @@ struct ProcedureSpec {
         v("constant", constant, says("Constant stimuli: each level is presented equally often."));
     }
 
-    /// Limits of the levels that the procedure may propose; infinite if they are not given.
+    /// Limits on the levels that the procedure may propose; infinite if no limits are given.
     double most() const;
     double least() const;
-    /// The share, or the number in the unit of its name.
+    /// Converts the level `at` to the share, or to the number in the unit of its name.
     double share(double at) const;
-    /// The function fitted to the answers.
+    /// Psychometric function that is fitted to the answers.
     model::Sigmoid fitted() const {
         return sigmoid.value_or(quest ? model::Sigmoid::weibull_log10 : model::Sigmoid::normal);
     }
-    /// The shape of the fitted function if the procedure assumes one; the answers then do not
-    /// determine it.
+    /// Shape of the fitted function if the procedure assumes the shape rather than fitting it to
+    /// the answers; otherwise unset.
     std::optional<double> known_shape() const {
         if (quest && fitted() == model::Sigmoid::weibull_log10) return quest->slope;
         return std::nullopt;
     }
-    /// The procedure's key in the file.
+    /// Key of the procedure in the file.
     const char* kind() const;
 
   private:
@@ -246,11 +252,12 @@ struct ProcedureSpec {
     }
 };
 
-/// The spec must have exactly one of staircase, quest, quest_plus and constant. `seed`: for the
-/// order of constant levels. Throws Error if a setting is out of range.
+/// Makes the procedure. The spec must have exactly one of staircase, quest, quest_plus and
+/// constant. `seed` determines the order of constant levels. Throws Error if a setting is out of
+/// range.
 Procedure make_procedure(const ProcedureSpec& spec, uint64_t seed);
 
-/// Problems in the spec go to `diagnostics`.
+/// Checks the spec. Problems are added to `diagnostics`.
 void check(const ProcedureSpec& spec, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::task

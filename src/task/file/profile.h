@@ -12,7 +12,7 @@
 
 namespace dihaptic::task {
 
-/// Shape of the rise and the fall of a share.
+/// Shape of the rise and fall of a share.
 enum class ProfileShape { linear, minimum_jerk };
 constexpr auto enum_names(ProfileShape) {
     return std::array{"linear", "minimum_jerk"};
@@ -21,10 +21,11 @@ constexpr auto enum_names(ProfileShape) {
 /// Factor on a perturbation's share as a function of the time since its onset. The default is 1 at
 /// all times.
 struct Profile {
-    double delay = 0;               ///< before the rise [s]
-    double rise = 0;                ///< [s]
-    std::optional<double> plateau;  ///< unset: no fall [s]
-    double fall = 0;                ///< [s]
+    double delay = 0;  ///< time before the rise [s]
+    double rise = 0;   ///< [s]
+    /// Duration of the plateau; if unset, the share does not fall [s].
+    std::optional<double> plateau;
+    double fall = 0;  ///< [s]
     ProfileShape shape = ProfileShape::linear;
     Place place;
 
@@ -41,9 +42,10 @@ struct Profile {
         v("shape", shape, says("Shape of the rise and the fall."));
     }
 
-    /// The factor at time `t` since the onset [s], from 0 to 1.
+    /// The factor at time `t` after the onset [s], from 0 to 1.
     double share(double t) const noexcept {
-        constexpr double kRounding = 1e-9;  // times are sums of ticks, with rounding errors
+        // tolerance for rounding errors, since times are sums of ticks
+        constexpr double kRounding = 1e-9;
         t += kRounding - delay;
         if (t < 0) return 0;
         if (t < rise) return risen(t / rise);
@@ -59,14 +61,15 @@ struct Profile {
     }
 };
 
-/// Progress of a motion, as a share of its path; its numbers may differ between trials.
+/// Progress of a motion along its path, as a share from 0 to 1. The numbers may differ between
+/// trials.
 struct Course {
     Formula delay{};     ///< [s]
     Formula duration{};  ///< [s]
     ProfileShape shape = ProfileShape::minimum_jerk;
 
-    /// The share at time `t` since the beginning [s]; `of(Formula)` returns the formula's value in
-    /// this trial.
+    /// Returns the share at time `t` after the beginning of the motion [s]. `of(Formula)` returns
+    /// the formula's value in this trial.
     template <class Of>
     double share(double t, const Of& of) const noexcept {
         Profile course;

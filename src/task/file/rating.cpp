@@ -64,7 +64,7 @@ void check_by(const AskSpec& spec, Diagnostics& diagnostics) {
                           "Leave it out, or write by: cursor.");
 }
 
-/// Checks that the simulated answer lies on the scale and can be typed.
+/// Checks that the simulated answer lies on the scale and that it can be typed.
 void check_simulated(const AskSpec& spec, double simulated, Diagnostics& diagnostics) {
     std::array<char, Rating::kLongest> keys{};
     const bool typed =
@@ -109,7 +109,7 @@ void check(const AskSpec& spec, Diagnostics& diagnostics) {
 std::string line_of(const AskSpec& spec) {
     std::vector<std::string> parts;
     const auto plain = [](const std::string& text) {
-        std::string out;  // a brace in a label does not mark a number
+        std::string out;  // escapes braces, which in a label do not mark a number
         for (const char c : text)
             out += c == '{' || c == '}' ? std::string(2, c) : std::string(1, c);
         return out;
@@ -136,7 +136,7 @@ double Rating::typed() const noexcept {
     double value = kNone;
     const char* const end = text_.data() + length_;
     const auto [at, failed] = std::from_chars(text_.data(), end, value);
-    return failed == std::errc() && at == end ? value + 0.0 : kNone;  // turns -0 into 0
+    return failed == std::errc() && at == end ? value + 0.0 : kNone;  // adding 0.0 turns -0 into 0
 }
 
 double Rating::shown() const noexcept {
@@ -174,7 +174,7 @@ void Rating::click(double share, const Question& question) noexcept {
 double Rating::at(double share, const Question& question) noexcept {
     const double answer =
         question.least + std::clamp(share, 0.0, 1.0) * (question.most - question.least);
-    return (question.whole ? std::round(answer) : answer) + 0.0;  // turns -0 into 0
+    return (question.whole ? std::round(answer) : answer) + 0.0;  // adding 0.0 turns -0 into 0
 }
 
 }  // namespace dihaptic::task

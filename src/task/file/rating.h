@@ -1,6 +1,6 @@
-// Ratings: a state asks for a number on a scale, which is typed, clicked on a line in the window,
-// or given by the hand's position on a line between two regions. The number is recorded in each
-// tick, and can be used in expressions.
+// Ratings: a state asks for a number on a scale. The number is typed, clicked on a line in the
+// window, or indicated by the hand's position on a line between two regions. The number is
+// recorded in each tick and can be used in expressions.
 #pragma once
 
 #include <array>
@@ -17,13 +17,13 @@
 
 namespace dihaptic::task {
 
-/// numbers: integers; vas: a visual analogue scale; likert: numbers from 1, each with a label;
-/// magnitude: any number from 0 up.
+/// Kind of scale. numbers: integers; vas: a visual analogue scale; likert: numbers from 1, each
+/// with a label; magnitude: any non-negative number.
 enum class Scale { numbers, vas, likert, magnitude };
 constexpr auto enum_names(Scale) {
     return std::array{"numbers", "vas", "likert", "magnitude"};
 }
-/// Upper end of a scale of magnitudes for which none is given.
+/// Upper end of a magnitude scale if none is given.
 constexpr double kMostMagnitude = 1e6;
 
 enum class AnswerBy { key, mouse, cursor };
@@ -38,11 +38,12 @@ struct AskSpec {
     Scale scale = Scale::numbers;
     std::optional<double> from;
     std::optional<double> to;
-    std::vector<std::string> labels;  ///< of the ends or, on a likert scale, of all numbers
+    std::vector<std::string> labels;  ///< labels of the ends or, on a likert scale, of all numbers
     AnswerBy by = AnswerBy::key;
-    RefList<Region> between;          ///< for `cursor`: regions at the ends of the line
-    bool optional = false;            ///< Enter alone leaves the question unanswered
-    std::optional<double> simulated;  ///< answer of simulated people; unset: random
+    RefList<Region> between;  ///< for `cursor`, the regions at the ends of the line
+    bool optional = false;    ///< whether the question can be left unanswered by pressing Enter
+    /// Answer of simulated people; if unset, the answer is random.
+    std::optional<double> simulated;
     Place place;
 
     template <class Visitor>
@@ -76,47 +77,49 @@ struct AskSpec {
     bool whole() const { return scale == Scale::numbers || scale == Scale::likert; }
 };
 
-/// Problems within the spec itself go to `diagnostics`.
+/// Checks the spec by itself. Problems are added to `diagnostics`.
 void check(const AskSpec& spec, Diagnostics& diagnostics);
-/// The scale in words, with a placeholder for the answer that is typed or pointed at.
+/// Returns the scale as text, with a placeholder for the answer, which is typed or pointed at.
 std::string line_of(const AskSpec& spec);
 
 /// A question whose names have been looked up.
 struct Question {
-    double least = 0;  ///< in the unit of the answer's name, like `most`
+    /// Lower end of the scale in the unit of the answer's name; `most` is the upper end.
+    double least = 0;
     double most = 1;
     bool whole = true;
     bool optional = false;
     std::optional<double> simulated;
     AnswerBy by = AnswerBy::key;
-    int from = -1;  ///< regions at the ends of the line
+    int from = -1;  ///< indices of the regions at the ends of the line
     int to = -1;
-    size_t variable = 0;  ///< index of the answer among the variables of frames
-    double si = 1;        ///< unit of the answer's name, in SI
+    size_t variable = 0;  ///< index of the answer among the variables in frames
+    double si = 1;        ///< unit of the answer's name, as a multiple of the SI unit
 };
 
-/// The answer to a question while it is being given. In the tick it neither allocates nor throws.
+/// The answer to a question while it is being given. Rating does not allocate or throw during a
+/// tick.
 class Rating {
   public:
-    static constexpr size_t kLongest = 8;  ///< largest number of characters
+    static constexpr size_t kLongest = 8;  ///< maximum number of characters
     static constexpr char kEnter = '\r';
     static constexpr char kBack = '\b';
 
     void begin() noexcept;
-    /// Processes a key: a digit, point, minus, back or enter. A number ends with enter, or when no
-    /// further digit could follow.
+    /// Processes a key: a digit, point, minus, back or enter. A number is complete when enter is
+    /// pressed, or as soon as no further digit could follow.
     void press(char key, const Question& question) noexcept;
-    /// Uses a position on the scale's line, from 0 to 1, as the answer.
+    /// Uses a position on the line of the scale, from 0 to 1, as the answer.
     void click(double share, const Question& question) noexcept;
-    /// Uses the hand's position on the line from `from_W` to `to_W`.
+    /// Uses the hand's position on the line from `from_W` to `to_W` as the answer.
     void point(const Vec3& p_W, const Vec3& from_W, const Vec3& to_W,
                const Question& question) noexcept;
 
-    /// NaN until an answer is given; in the unit of the answer's name, like `shown`.
+    /// The answer in the unit of its name; NaN until it is given.
     double answer() const noexcept { return answer_; }
-    /// The number typed so far, or the answer.
+    /// The number typed so far or, once it is given, the answer, in the unit of the answer's name.
     double shown() const noexcept;
-    /// Whether nothing has been typed or answered.
+    /// Whether nothing has been typed and no answer given.
     bool empty() const noexcept { return length_ == 0 && std::isnan(answer_); }
 
   private:

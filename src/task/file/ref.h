@@ -8,22 +8,22 @@
 
 namespace dihaptic::task {
 
-/// The name of a T as written in a file, and the index of that T once it has been looked up
+/// The name of a T as written in a file and, once the name has been looked up, the index of that T
 /// (plan/names.h).
 template <class T>
 struct Ref : std::string {
-    int index = -1;  ///< -1: none, or not looked up yet
+    int index = -1;  ///< -1 if there is none or the name has not been looked up yet
 
     using std::string::string;
     Ref(std::string name)  // NOLINT(google-explicit-constructor)
         : std::string(std::move(name)) {}
 };
 
-/// Several names. `List`: Texts if a single name may stand without brackets in the file; otherwise
-/// a vector.
+/// A list of names. `List` is Texts if the file may give a single name without brackets; otherwise,
+/// it is a vector.
 template <class T, class List = Texts>
 struct Refs : List {
-    std::vector<int> indices;  ///< indices of the names that exist
+    std::vector<int> indices;  ///< indices of those names that exist
 
     using List::List;
 };

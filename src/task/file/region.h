@@ -1,4 +1,4 @@
-// A named sphere of a task.
+// A named spherical region of a task.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace dihaptic::task {
 
-/// A named sphere that serves as a location for hands and can be shown.
+/// A named sphere that serves as a location for hands and that can be displayed.
 struct Region {
     std::string name;
     FormulaVec3 position;   ///< centre [m]

@@ -15,7 +15,8 @@
 namespace dihaptic::task {
 namespace {
 
-/// Coordinate along one axis at the share s of the interval from times[i] to times[i + 1].
+/// Returns the coordinate along one axis at the fraction s of the interval from times[i] to times[i
+/// + 1].
 double along(const std::vector<double>& times, const std::vector<double>& places, size_t i,
              double s) {
     if (places.empty()) return 0;
@@ -27,7 +28,7 @@ double along(const std::vector<double>& times, const std::vector<double>& places
     const double rise = places[i + 1] - places[i];
     const double begin = duration * slope(i);
     const double end = duration * slope(i + 1);
-    // Hermite polynomial, relative to the first position of the path
+    // cubic Hermite polynomial, relative to the first position of the path
     return places[i] - places[0] +
            s * (begin + s * (3 * rise - 2 * begin - end + s * (begin + end - 2 * rise)));
 }
@@ -92,7 +93,7 @@ void SampledPath::read_table(const CsvFile& table, Diagnostics& diagnostics) {
 }
 
 bool SampledPath::check(Diagnostics& diagnostics) const {
-    if (!file.empty()) return false;  // its errors have been reported with the file
+    if (!file.empty()) return false;  // errors in the file have already been reported
     if (times.size() < 2) {
         diagnostics.error(place, "times", "has fewer than two times",
                           "Give times_s: [0, 0.5, 1] and e.g. z_mm: [0, 20, 0], or a file with the "

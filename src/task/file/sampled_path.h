@@ -1,5 +1,5 @@
-// A tabulated path along which a body is driven: positions at given times, from a file or in the
-// experiment file itself.
+// A tabulated path along which a body is driven: positions at given times, read from a file or
+// listed in the experiment file itself.
 #pragma once
 
 #include <string>
@@ -18,9 +18,10 @@ namespace dihaptic::task {
 /// Positions at given times. Displacements are relative to the first position, so that a recording
 /// in a tracker's own coordinates can be used. An omitted coordinate stays constant.
 struct SampledPath {
-    std::string file;           ///< CSV with the columns below, relative to the experiment's file
+    std::string file;  ///< CSV file with the columns below, relative to the experiment file
     std::vector<double> times;  ///< ascending [s]
-    std::vector<double> x;      ///< one position for each time, or empty [m]
+    /// One position for each time, or empty if the coordinate stays constant [m].
+    std::vector<double> x;
     std::vector<double> y;
     std::vector<double> z;
     Place place;
@@ -40,14 +41,15 @@ struct SampledPath {
         v("z", z, way.says("Positions along z at these times."));
     }
 
-    /// Reads the file, if there is one, and then clears its name. Relative paths start at `folder`.
+    /// Reads the file, if `file` names one, and then clears `file`. Relative paths start at
+    /// `folder`.
     void read_file(const std::string& folder, Diagnostics& diagnostics);
-    /// Whether the path is valid; problems go to `diagnostics`.
+    /// Whether the path is valid. Problems are added to `diagnostics`.
     bool check(Diagnostics& diagnostics) const;
     /// Displacement from the first position at time `t`, counted from the first time [s]. The path
-    /// is a cubic curve through all positions, whose slope at each of them is that of the line
-    /// between its neighbours (Catmull and Rom 1974); it is at rest at both ends. Requires a valid
-    /// path.
+    /// is a cubic curve through all positions, whose slope at each position is that of the line
+    /// between the neighbouring positions (Catmull and Rom 1974). The path starts and ends at rest.
+    /// Requires a valid path.
     Vec3 way(double t) const noexcept;
 
   private:

@@ -1,5 +1,5 @@
-// The visual part of an experiment file: objects that a state hides, their looks, and the pages
-// before a block (docs/files.md).
+// The visual part of an experiment file: objects that a state hides, the looks of objects, and the
+// pages shown before a block (docs/files.md).
 #pragma once
 
 #include <array>
@@ -15,21 +15,22 @@ namespace dihaptic::task {
 
 struct State;
 
-/// Display of the fingers' proxies. `held`: they are shown where they were displayed when the state
-/// began, or when another state last ended.
+/// How the fingers' proxies are displayed. With `held`, they stay where they were displayed when
+/// the state began, or when the state `held_from` last ended.
 enum class Cursor { yes, no, held };
 constexpr auto enum_names(Cursor) {
     return std::array{"yes", "no", "held"};
 }
 
-/// The objects shown while a state lasts; in the file, a mapping or just the list of targets.
+/// The objects shown while a state lasts. In the file, this is a mapping or just the list of
+/// targets.
 struct Show {
-    std::vector<std::string> targets;  ///< regions
+    std::vector<std::string> targets;  ///< regions that are shown
     Cursor cursor = Cursor::yes;
-    std::string held_from;  ///< state; empty: the previous state
-    bool object = true;     ///< the scene's object is shown
-    Node bodies;            ///< yes or no for each name
-    Node fingers;           ///< yes or no for each name; overrides `cursor`
+    std::string held_from;  ///< state at whose end the cursor is held; if empty, the previous state
+    bool object = true;     ///< whether the scene's object is shown
+    Node bodies;            ///< for each body name, yes or no
+    Node fingers;           ///< for each finger name, yes or no; overrides `cursor`
     Place place;
 
     template <class Visitor>
@@ -46,7 +47,7 @@ struct Show {
         v("fingers", fingers,
           says("Individual fingers by name, each shown or not; overrides 'cursor'."));
     }
-    /// Visits the single key of a struct that contains a Show.
+    /// Visits the key `show` of a struct that contains a Show.
     template <class Visitor>
     void visit_in(Visitor& v) {
         bool is_list = cursor == Cursor::yes && held_from.empty() && object &&
@@ -66,10 +67,10 @@ struct LookSpec {
     Ref<scene::Body> body;
     Ref<scene::Finger> finger;
     Ref<Region> target;
-    std::string colour;  ///< "#rrggbb"; empty: unchanged
+    std::string colour;  ///< "#rrggbb"; if empty, the colour is unchanged
     double scale = 1;    ///< factor on the displayed size
     bool hidden = false;
-    Refs<State> during;  ///< states in which a condition's look applies; empty: all
+    Refs<State> during;  ///< states in which a condition's look applies; if empty, all states
     Place place;
 
     template <class Visitor>
@@ -86,11 +87,11 @@ struct LookSpec {
 
 /// A page that is shown in place of the scene until a key is pressed or a time has passed.
 struct PageSpec {
-    std::string text;      ///< Markdown
+    std::string text;      ///< text of the page, in Markdown
     std::string picture;   ///< PNG or GIF file, relative to the experiment file
-    std::string checksum;  ///< of the picture, once it is found (base/checksum.h)
-    std::string key;       ///< one letter or digit; empty: any
-    double lasts = 0;      ///< longest time for which the page is shown; 0: until the key press [s]
+    std::string checksum;  ///< checksum of the picture, once the file is found (base/checksum.h)
+    std::string key;       ///< letter or digit that ends the page; if empty, any key does
+    double lasts = 0;  ///< longest time for which the page is shown; if 0, until the key press [s]
     Place place;
 
     template <class Visitor>

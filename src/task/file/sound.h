@@ -1,4 +1,4 @@
-// Sounds of a task: tones, noise and sound files, for use in states and exits.
+// Sounds in a task: tones, noise and sound files, which states and exits can play.
 #pragma once
 
 #include <array>
@@ -11,32 +11,33 @@
 
 namespace dihaptic::task {
 
-/// white: equal power at each frequency; pink: equal power in each octave.
+/// Colour of noise. white: equal power at each frequency; pink: equal power in each octave.
 enum class Noise { no, white, pink };
 constexpr auto enum_names(Noise) {
     return std::array{"no", "white", "pink"};
 }
 
-/// Duration of a sound: to its end, or while consecutive states name it, or from the first tick of
-/// the session to the last.
+/// How long a sound lasts: until it has been played once, as long as consecutive states name it, or
+/// from the first to the last tick of the session.
 enum class Lasts { once, state, session };
 constexpr auto enum_names(Lasts) {
     return std::array{"once", "state", "session"};
 }
 
-/// A sound: exactly one of a tone, noise or a file.
+/// A sound, given by exactly one of a tone, noise and a file.
 struct SoundSpec {
     static constexpr double kHighest = 20e3;            ///< frequency [Hz]
-    static constexpr int64_t kLargest = 1'000'000'000;  ///< largest size of a file [bytes]
+    static constexpr int64_t kLargest = 1'000'000'000;  ///< maximum size of a sound file [bytes]
 
     std::string name;
-    std::optional<double> tone;  ///< frequency of a sine [Hz]
+    std::optional<double> tone;  ///< frequency of a sine tone [Hz]
     Noise noise = Noise::no;
-    std::string file;       ///< path, relative to the experiment file
-    std::string checksum;   ///< of the file, once it is found (base/checksum.h)
-    double duration = 0.1;  ///< of a tone or noise that is played once [s]
-    double ramp = 0.005;    ///< onset and offset ramp of a tone or noise, a raised cosine [s]
-    double level = 0.5;     ///< amplitude relative to the largest that can be played
+    std::string file;       ///< path of the sound file, relative to the experiment file
+    std::string checksum;   ///< checksum of the file, once the file is found (base/checksum.h)
+    double duration = 0.1;  ///< duration of a tone or noise that is played once [s]
+    double ramp = 0.005;    ///< duration of the onset and offset ramps of a tone or noise, in the
+                            ///< form of raised cosines [s]
+    double level = 0.5;     ///< amplitude relative to the maximum that can be played
     Lasts lasts = Lasts::once;
     Place place;
 
@@ -71,11 +72,11 @@ struct SoundSpec {
 
 struct Task;
 
-/// Checks a sound by itself; problems go to `diagnostics`.
+/// Checks a sound by itself. Problems are added to `diagnostics`.
 void check(const SoundSpec& sound, Diagnostics& diagnostics);
 
-/// Converts the paths of the sound files from relative to `folder` to relative to the program's
-/// folder; missing files go to `diagnostics`.
+/// Makes the paths of the sound files, which are relative to `folder`, relative to the program's
+/// folder. Missing files are reported to `diagnostics`.
 void find_sounds(Task& task, const std::string& folder, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::task

@@ -1,5 +1,5 @@
-// The task of an experiment file (docs/files.md): a small state machine that runs in each trial,
-// its perturbations, and the order of trials.
+// The task in an experiment file (docs/files.md): a small state machine that runs in each trial,
+// its perturbations, and the order of the trials.
 #pragma once
 
 #include <algorithm>
@@ -31,20 +31,20 @@ enum class When {
     released,    ///< no finger presses a body
     gripped,     ///< two fingers press a body
     lifted,      ///< a body is at least a given height above its initial position
-    still,       ///< the finger, all fingers or a body move slower than a given speed
-    key,         ///< the operator pressed a key
-    button,      ///< a button of a finger's device is held
-    trigger,     ///< a code arrived through one of the rig's outlets
-    answered,    ///< the number that the state asks for was entered
-    time,        ///< a given time in the state has passed
+    still,       ///< the finger, all fingers or a body move more slowly than a given speed
+    key,         ///< the operator has pressed a key
+    button,      ///< a button on a finger's device is held down
+    trigger,     ///< a code has arrived through one of the rig's outlets
+    answered,    ///< the number that the state asks for has been entered
+    time,        ///< a given time has passed since the state was entered
     expression,  ///< the expression in the text is true (expression.h)
 };
 
-/// Properties of conditions: a row for each When, in the same order.
+/// Properties of conditions: one row for each When, in the same order.
 struct WhenRow {
-    /// Fields of an Exit. any_finger: a finger whose default is any finger, all fingers or their
-    /// middle, rather than the first finger. comes: not a field; the condition does not depend on
-    /// the hand's motion.
+    /// Fields of an Exit that a condition uses. any_finger: like `finger`, but the default is any
+    /// finger, all fingers or their middle, rather than the first finger. comes: not a field, but
+    /// marks a condition that does not depend on the hand's motion.
     enum Has : unsigned {
         region = 1,
         body = 2,
@@ -61,7 +61,7 @@ struct WhenRow {
         after = 4096
     };
     const char* name;
-    unsigned has;  ///< fields in addition to those of all conditions
+    unsigned has;  ///< fields used in addition to those of all conditions
 };
 constexpr WhenRow kWhenTable[] = {
     {"inside", WhenRow::region | WhenRow::any_finger | WhenRow::what | WhenRow::count},
@@ -86,42 +86,43 @@ constexpr auto enum_names(When) {
     return out;
 }
 
-/// A remedy for a key that only these conditions have (WhenRow::Has); `given`: the condition in the
-/// file.
+/// Returns a remedy for a key that only some conditions can have: those with any of the fields
+/// `any` (WhenRow::Has). `given` is the condition in the file.
 std::string conditions_with(const std::string& given, unsigned any);
 
 struct State;
 
-/// One exit of a state: to another state, or out of the trial with an outcome.
+/// A transition out of a state: to another state, or to the end of the trial with an outcome.
 struct Exit {
     When when = When::time;
-    std::string condition;  ///< text of an expression
-    Ref<Region> region;     ///< for inside and outside
-    bool shown = false;     ///< for inside and outside: judged by the displayed position
-    Ref<scene::Body> body;  ///< for touched, released, gripped and lifted
-    std::string what;       ///< for inside, outside and still: a body, in place of a finger
-    std::string finger;     ///< a finger or a hand; if empty, the first finger, but for touched and
-                            ///< released any finger, for gripped any two, for still all fingers,
-                            ///< for inside and outside the middle of all fingers
-    Formula height = 0.02;  ///< for lifted [m]
-    Formula speed = 0.02;   ///< for still [m/s]
-    int count = 1;          ///< number of times that the condition has to be met
-    Formula hold = 0;       ///< time for which the condition must hold without interruption; with
+    std::string condition;  ///< text of the expression if `when` is When::expression
+    Ref<Region> region;     ///< region for inside and outside
+    bool shown = false;     ///< whether inside and outside use the displayed position
+    Ref<scene::Body> body;  ///< body for touched, released, gripped and lifted
+    std::string what;       ///< body used in place of a finger, for inside, outside and still
+    std::string finger;  ///< a finger or a hand; if empty, the first finger, except for touched and
+                         ///< released (any finger), gripped (any two), still (all fingers), and
+                         ///< inside and outside (the middle of all fingers)
+    Formula height = 0.02;  ///< height for lifted [m]
+    Formula speed = 0.02;   ///< speed for still [m/s]
+    int count = 1;          ///< number of times that the condition must be met
+    Formula hold = 0;       ///< time for which the condition must hold without interruption or, for
                             ///< When::time, the time in the state [s]
-    std::string key;        ///< one letter or digit
-    int button = 0;         ///< counted from 0
-    int code = 0;           ///< for trigger; 0: any
+    std::string key;        ///< for key, one letter or digit
+    int button = 0;         ///< for button, its number, counted from 0
+    int code = 0;           ///< for trigger, the code; 0 for any code
     Ref<State> to;
-    std::string outcome;        ///< ends the trial with this outcome
-    int chooses = 0;            ///< ends the trial with the answer that chooses this interval
-    bool redo = false;          ///< the trial is to be repeated
-    bool ends_session = false;  ///< the remaining trials are left out
-    std::string feedback;       ///< shown for at least Task::feedback, then until the next message
-    Ref<SoundSpec> sound;       ///< starts when the exit is taken
-    std::string hed;            ///< HED tags of the outcome
+    std::string outcome;  ///< outcome with which the trial ends
+    int chooses = 0;      ///< interval, 1 or 2, that is chosen by the answer that ends the trial
+    bool redo = false;    ///< whether the trial will be repeated
+    bool ends_session = false;  ///< whether the remaining trials are left out
+    /// Message shown for at least Task::feedback, then until the next message.
+    std::string feedback;
+    Ref<SoundSpec> sound;  ///< sound that starts when this exit is taken
+    std::string hed;       ///< HED tags that describe the outcome
     Place place;
 
-    /// Whether the condition has any of these fields (WhenRow::Has).
+    /// Whether the condition uses any of these fields (WhenRow::Has).
     bool has(unsigned any) const { return (kWhenTable[static_cast<size_t>(when)].has & any) != 0; }
     /// The condition as written in the file: a word of kWhenTable, or an expression.
     std::string given() const {
@@ -198,13 +199,13 @@ struct Exit {
     }
 };
 
-/// A step of the simulated hand in a state: like a step of a script, or a reach to a region.
+/// A step of the simulated hand in a state: a step as in a script, or a reach to a region.
 struct HandStep {
     Formula duration = 0;             ///< [s]
-    Ref<Region> reach;                ///< destination of the hand's centre
+    Ref<Region> reach;                ///< region to which the hand's centre moves
     FormulaVec3 move{};               ///< displacement of the hand's centre [m]
     std::optional<Formula> aperture;  ///< aperture at the end of the step [m]
-    RefList<scene::Finger> fingers;   ///< fingers that move; empty: all
+    RefList<scene::Finger> fingers;   ///< fingers that move; if empty, all fingers
     Place place;
 
     template <class Visitor>
@@ -232,10 +233,11 @@ struct HandStep {
 /// Placement of a body when a state begins.
 struct StatePlace {
     Ref<scene::Body> body;
-    std::optional<FormulaVec3> position;  ///< unset: the body's current position [m]
-    std::optional<FormulaVec3> velocity;  ///< unset: at rest, if the body is placed [m/s]
-    bool held = false;                    ///< the body is kept there while the state lasts
-    bool removed = false;  ///< the body is out of reach and invisible while the state lasts
+    std::optional<FormulaVec3> position;  ///< if unset, the body stays at its current position [m]
+    /// Initial velocity [m/s]; if unset, a body that is placed starts at rest.
+    std::optional<FormulaVec3> velocity;
+    bool held = false;     ///< whether the body is kept in place while the state lasts
+    bool removed = false;  ///< whether the body is out of reach and invisible while the state lasts
     Place place;
 
     template <class Visitor>
@@ -259,22 +261,22 @@ struct State {
     std::string name;
     Show show;
     std::vector<LookSpec> look;
-    bool perturbed = true;  ///< the trial's perturbations act in the state
-    int interval = 0;       ///< interval to which the state belongs, 1 or 2; 0: none
+    bool perturbed = true;  ///< whether the trial's perturbations can act in the state
+    int interval = 0;       ///< interval to which the state belongs, 1 or 2; 0 for none
     std::string message;
-    std::vector<std::string> lines;  ///< texts below the message while the state lasts
-    bool countdown = false;          ///< a line shows the seconds left until the exit by time
-    std::optional<AskSpec> ask;      ///< rating that is asked for
-    std::optional<FormSpec> form;    ///< several questions, in place of `ask`
-    int marker = 0;                  ///< event code on entry; 0: none
-    bool patch = false;              ///< the rig's patch is white while the state lasts
-    Refs<SoundSpec> sounds;          ///< sounds that start or continue while the state lasts
+    std::vector<std::string> lines;  ///< texts shown below the message while the state lasts
+    bool countdown = false;        ///< whether a line shows the seconds left until the exit by time
+    std::optional<AskSpec> ask;    ///< rating that the participant is asked for
+    std::optional<FormSpec> form;  ///< form with several questions, in place of `ask`
+    int marker = 0;                ///< event code sent on entry into the state; 0 for none
+    bool patch = false;      ///< whether the rig's photodiode patch is white while the state lasts
+    Refs<SoundSpec> sounds;  ///< sounds that start or continue while the state lasts
     std::vector<StatePlace> places;
     std::vector<DriveSpec> drives;
     std::vector<MotorSpec> motors;
-    std::vector<Exit> exits;     ///< the first whose condition is met is taken
-    std::vector<HandStep> hand;  ///< steps of the simulated hand from entry into the state
-    std::string hed;             ///< HED tags of the state's beginning
+    std::vector<Exit> exits;  ///< exits of the state; the first one whose condition is met is taken
+    std::vector<HandStep> hand;  ///< steps of the simulated hand, starting at entry into the state
+    std::string hed;             ///< HED tags for the beginning of the state
     Place place;
 
     template <class Visitor>
@@ -313,15 +315,16 @@ struct State {
         v("hed", hed, says("HED tags of the state's beginning, for the export to BIDS."));
     }
 
-    /// What the state asks for: the rating, or the items of its form.
+    /// The questions that the state asks: its rating, or the items of its form.
     std::span<const AskSpec> questions() const {
         if (form) return form->items;
         return ask ? std::span(&*ask, 1) : std::span<const AskSpec>();
     }
 };
 
-/// Initial placement of a body in a trial, in place of its position in the scene: by position, or
-/// by the coordinate of a joint whose second body it is. Bodies attached to that body move with it.
+/// Initial placement of a body in a trial, in place of its position in the scene. The placement is
+/// given as a position, or as the coordinate of a joint whose second body is the one to be placed.
+/// Bodies attached to that body move with it.
 struct BodyPlace {
     Ref<scene::Body> body;
     std::optional<FormulaVec3> position;  ///< [m]
@@ -363,10 +366,10 @@ struct BodyPlace {
     }
 };
 
-/// A factor whose levels are crossed with the levels of other factors to make conditions.
+/// A factor whose levels are crossed with those of other factors to generate conditions.
 struct Factor {
-    std::string factor;               ///< name, which gives the unit of levels
-    std::vector<std::string> levels;  ///< numbers, or texts
+    std::string factor;               ///< name of the factor, which gives the unit of its levels
+    std::vector<std::string> levels;  ///< numbers or texts
     Place place;
 
     template <class Visitor>
@@ -379,12 +382,12 @@ struct Factor {
     }
 };
 
-/// A condition of trials: regions and perturbations that replace those of the same name, initial
+/// A condition of trials: regions and perturbations that replace those with the same name, initial
 /// placements of bodies, and looks.
 struct Condition {
     std::string name;
-    Node factors;             ///< the level of each factor
-    Ref<scene::Body> object;  ///< body whose lifts are measured; empty: the scene's object
+    Node factors;             ///< level of each factor
+    Ref<scene::Body> object;  ///< body whose lifts are measured; if empty, the scene's object
     std::vector<BodyPlace> places;
     std::vector<Region> regions;
     std::vector<PerturbationSpec> perturbations;
@@ -415,13 +418,14 @@ constexpr auto enum_names(Order) {
 
 using rows::TrialKind;
 
-/// Trials of another kind, inserted at random points of a block.
+/// Trials of another kind that are inserted at random points in a block.
 struct Insert {
     TrialKind kind = TrialKind::catch_trial;
     int count = 1;
-    int gap = 1;  ///< smallest number of other trials between two inserted ones
+    int gap = 1;  ///< minimum number of other trials between two inserted trials
     Refs<PerturbationSpec> perturb;
-    RefList<Condition> conditions;  ///< empty: the condition of the previous trial
+    RefList<Condition> conditions;  ///< conditions of the inserted trials; if empty, the condition
+                                    ///< of the previous trial
     Place place;
 
     template <class Visitor>
@@ -439,7 +443,8 @@ struct Insert {
     }
 };
 
-/// Whether a block is run in each round, or only once: before the first round or after the last.
+/// Whether a block is run in each round or only once, i.e. before the first round or after the
+/// last.
 enum class Once { no, before, after };
 constexpr auto enum_names(Once) {
     return std::array{"no", "before", "after"};
@@ -448,18 +453,21 @@ constexpr auto enum_names(Once) {
 struct Block {
     std::string name;
     TrialKind kind = TrialKind::baseline;
-    RefList<Condition> conditions;  ///< empty: all
+    RefList<Condition> conditions;  ///< if empty, all conditions
     Once once = Once::no;
-    int repeats = 1;                 ///< number of times that each condition is run
-    Order order = Order::shuffled;   ///< order of the conditions, generated for each repeat
+    int repeats = 1;  ///< number of times each condition is run
+    /// Order of the conditions, which is generated anew for each repeat.
+    Order order = Order::shuffled;
     Refs<PerturbationSpec> perturb;  ///< perturbations that act together
-    int ramp = 0;  ///< number of trials in which the perturbations' share rises to 1; 0: at once
-    RefList<ProcedureSpec> procedures;  ///< if given, their interleaved trials make up the block
+    int ramp = 0;  ///< number of trials over which the perturbations' share rises to 1; 0 for an
+                   ///< abrupt start
+    RefList<ProcedureSpec> procedures;  ///< if not empty, the block consists of the interleaved
+                                        ///< trials of these procedures
     std::vector<Insert> insert;
-    std::string until;            ///< condition on variables that ends the block; empty: none
-    double rest = 0;              ///< break before the block, unless it is the first [s]
-    std::vector<PageSpec> pages;  ///< shown before the block begins
-    Ref<State> begins;            ///< state in which the block's trials begin; empty: the first
+    std::string until;  ///< condition on variables that ends the block; empty if there is none
+    double rest = 0;  ///< duration of the break before the block, unless it is the first block [s]
+    std::vector<PageSpec> pages;  ///< pages shown before the block begins
+    Ref<State> begins;  ///< state in which the block's trials begin; if empty, the first state
     Place place;
 
     template <class Visitor>
@@ -497,16 +505,16 @@ struct Block {
     }
 };
 
-/// Whether and when a failed trial is repeated.
+/// Whether and when a failed trial will be repeated.
 enum class Redo { never, next, end_of_block, random };
 constexpr auto enum_names(Redo) {
     return std::array{"never", "next", "end_of_block", "random"};
 }
 
-/// Measure of a reach, taken once in each trial, in one of its states.
+/// Measure of a reach, taken once in each trial, during one of its states.
 ///
-/// angle    about `axis`, right-handed, from the direction of `to` to the direction of the handle
-///          when it is `distance` from `from`; both directions start at `from`
+/// angle    right-handed angle about `axis` from the direction of `to` to that of the handle when
+///          the handle is at `distance` from `from`; both directions are seen from `from`
 /// extent   displacement of the handle along the line from `from` to `to` at the end of its first
 ///          stroke
 enum class Measure { angle, extent };
@@ -516,12 +524,12 @@ constexpr auto enum_names(Measure) {
 
 struct ReachMeasure {
     Measure measure = Measure::angle;
-    Ref<scene::Finger> finger;  ///< empty: the scene's first finger
+    Ref<scene::Finger> finger;  ///< if empty, the scene's first finger
     Ref<Region> from;
     Ref<Region> to;
     Refs<State> during;
     double distance = 0.05;    ///< [m]
-    std::optional<Vec3> axis;  ///< unset: the axis of the first perturbation that has one, or z
+    std::optional<Vec3> axis;  ///< if unset, the axis of the first perturbation that has one, or z
     Place place;
 
     template <class Visitor>
@@ -546,7 +554,7 @@ struct ReachMeasure {
     }
 };
 
-/// Fingers that conditions treat as a group.
+/// A group of fingers to which conditions can refer.
 struct Hand {
     std::string name;
     RefList<scene::Finger> fingers;
@@ -559,10 +567,10 @@ struct Hand {
     }
 };
 
-/// A number that rules change between trials.
+/// A number that rules can change between trials.
 struct Variable {
     std::string name;
-    double start = 0;  ///< initial value, in the unit at the end of the name
+    double start = 0;  ///< initial value, in the unit at the end of the variable's name
     Place place;
 
     template <class Visitor>
@@ -575,11 +583,11 @@ struct Variable {
     }
 };
 
-/// Update of a variable at the end of a trial.
+/// A rule that updates a variable at the end of a trial.
 struct Rule {
-    std::string when;  ///< a condition; empty: always
+    std::string when;  ///< condition under which the rule applies; if empty, it always applies
     Ref<Variable> set;
-    std::string to;  ///< expression
+    std::string to;  ///< expression for the new value
     Place place;
 
     template <class Visitor>
@@ -592,33 +600,38 @@ struct Rule {
 
 struct Task {
     std::vector<Hand> hands;
-    RefList<Hand> participants;  ///< the hand of each of two participants; empty: one participant
+    /// The hand of each of two participants; empty if there is one participant.
+    RefList<Hand> participants;
     std::vector<DrawSpec> draws;
     std::vector<Variable> variables;
-    std::vector<Rule> after_trial;  ///< applied in this order
-    std::vector<Factor> cross;      ///< generates the conditions
+    /// Rules that update variables after each trial, applied in this order.
+    std::vector<Rule> after_trial;
+    std::vector<Factor> cross;  ///< factors whose combinations generate the conditions
     std::vector<Region> regions;
     std::vector<PerturbationSpec> perturbations;
     std::vector<SoundSpec> sounds;
-    std::vector<State> states;  ///< each trial starts in the first state
-    /// Empty: one condition without a name. With crossed factors, additions to the generated
-    /// conditions.
+    std::vector<State> states;  ///< states of a trial, which starts in the first one
+    /// If empty, there is a single condition without a name. If factors are crossed, these are
+    /// additions to the generated conditions.
     std::vector<Condition> conditions;
-    std::vector<Condition> rounds;  ///< the blocks are run once in each round; empty: once
+    /// The blocks are run once in each round; if empty, they are run once.
+    std::vector<Condition> rounds;
     Order round_order = Order::sequential;
     std::vector<ProcedureSpec> procedures;
-    Refs<scene::Body> stays;  ///< bodies that are not put back between trials
+    Refs<scene::Body> stays;  ///< bodies that stay where they are between trials
     std::vector<Block> blocks;
     Redo redo = Redo::end_of_block;
-    int most_attempts = 3;  ///< largest number of attempts at a trial
-    /// Time for which feedback stays: no message replaces it, and no trial starts [s].
+    int most_attempts = 3;  ///< maximum number of attempts at a trial
+    /// Time for which feedback is shown, during which no message replaces it and no trial starts
+    /// [s].
     double feedback = 1;
-    bool feedback_beside = false;    ///< feedback appears below the message for this time
-    std::vector<std::string> lines;  ///< texts below the message throughout the session
+    /// Whether feedback appears below the message instead of replacing it.
+    bool feedback_beside = false;
+    std::vector<std::string> lines;  ///< texts shown below the message throughout the session
     std::optional<ReachMeasure> reach;
     std::vector<std::string> measures;  ///< names from kMeasureTable
     std::vector<CustomMeasure> custom_measures;
-    std::optional<Movement> movement;  ///< analysed by `measures`
+    std::optional<Movement> movement;  ///< movement analysed by `measures`
     std::optional<CorrectionSpec> corrections;
     Place place;
 

@@ -1,4 +1,4 @@
-// Passes the fuzzer's input to the experiment reader.
+// Passes the fuzzer's input to the reader of experiment files.
 #include "task/file/experiment.h"
 
 #include "testing/fuzz.h"
@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     try {
         (void)task::read_experiment(file, diagnostics);
     } catch (const Error&) {
-        // an Error with file, line and remedy is the correct response
+        // throwing an Error with file, line and remedy is the correct response
     }
     return 0;
 }

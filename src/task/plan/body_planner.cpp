@@ -7,7 +7,8 @@
 namespace dihaptic::task {
 namespace {
 
-/// Position of bodies that a state removes: beyond any plane, and far from each other [m].
+/// Height and spacing at which bodies removed by a state are placed: beyond any plane, and far from
+/// each other [m].
 constexpr double kAway = 1000;
 constexpr double kApart = 100;
 
@@ -130,7 +131,7 @@ TaskPlan::StartPose BodyPlanner::start_pose(int index, const FormulaVec3& positi
     return {index, X_WB, scene::bounds(body.shape), position};
 }
 
-/// Whether any trial changes the body's position from that in the scene.
+/// Whether any trial moves the body away from its position in the scene.
 bool BodyPlanner::is_placed(int body) const {
     const auto among = [&](const auto& places) {
         return std::any_of(places.begin(), places.end(),
@@ -177,7 +178,7 @@ const scene::Joint* BodyPlanner::joint_of(const BodyPlace& place) const {
     return joint.row().has_axis() ? &joint : nullptr;
 }
 
-/// The body placed by a joint; -1 if the placement is not by a joint.
+/// Returns the index of the body placed by a joint, or -1 if the placement does not use a joint.
 int BodyPlanner::moved_by(const BodyPlace& place) const {
     const scene::Joint* const joint = joint_of(place);
     return joint == nullptr ? -1 : scene.find(joint->between.back());
@@ -190,8 +191,8 @@ void BodyPlanner::place_by_joint(const BodyPlace& place, TaskPlan::StartPose& st
     start_pose.rate = joint.slides() ? place.speed : place.rate;
 }
 
-/// Bodies attached to a body that a joint places move with it; each comes after the body to which
-/// it is attached.
+/// Adds the bodies attached to a body that a joint places, since they move with it, and sorts all
+/// start poses so that each body follows the body to which it is attached.
 void BodyPlanner::hang(std::vector<TaskPlan::StartPose>& start_poses) const {
     const auto start_of = [&](int body) {
         return std::find_if(start_poses.begin(), start_poses.end(),
@@ -212,7 +213,7 @@ void BodyPlanner::hang(std::vector<TaskPlan::StartPose>& start_poses) const {
             }
         }
     }
-    // number of joints between the body and a body that no joint places
+    // number of joints between the body and the first body that is not placed by a joint
     const auto depth = [&](const TaskPlan::StartPose& start_pose) {
         size_t out = 0;
         for (auto at = start_of(start_pose.body);

@@ -9,11 +9,12 @@ class BodyPlanner : Planning {
   public:
     explicit BodyPlanner(const Planning& given) : Planning(given) {}
 
-    /// Reports an error if the body cannot move.
+    /// Reports an error if the scene does not allow the body to move.
     void check_movable(const Ref<scene::Body>& body, const Place& place, const char* key);
     /// Checks the bodies that a condition places.
     void check(const Condition& condition);
-    /// Initial placement of bodies in a trial; placements of later conditions replace earlier ones.
+    /// Returns the initial placement of bodies in a trial. Placements in later conditions replace
+    /// those in earlier ones.
     std::vector<TaskPlan::StartPose> start_poses(
         std::initializer_list<const Condition*> conditions) const;
     /// Plans the placements, drives and motors of a state.

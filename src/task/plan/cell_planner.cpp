@@ -8,7 +8,8 @@
 namespace dihaptic::task {
 namespace {
 
-/// The list, with each item replaced by the item of the same name in `others`, if there is one.
+/// Returns the list with each item replaced by the item of the same name in `others`, if `others`
+/// has such an item.
 template <class T>
 std::vector<T> replaced(std::vector<T> list, const std::vector<T>& others) {
     for (T& item : list) {
@@ -92,7 +93,8 @@ void plan_cells(const Planning& given, const BodyPlanner& bodies, const SeenPlan
     std::vector<Condition> rounds = plan.task.rounds;
     const auto beside = [](const Block& block) { return block.once != Once::no; };
     if (rounds.empty() || std::ranges::any_of(plan.task.blocks, beside)) rounds.push_back(nothing);
-    std::set<std::string> said;  // a mistake in every cell is reported only once
+    // mistakes already reported, so that a mistake in every cell is reported only once
+    std::set<std::string> said;
     for (const Condition& round : rounds) {
         for (const Condition& condition : or_one(plan.task.conditions)) {
             Diagnostics found;

@@ -1,4 +1,4 @@
-// Plans the differences between trials: regions, perturbations, placements of bodies, and looks.
+// Plans what differs between trials: regions, perturbations, placements of bodies, and looks.
 #pragma once
 
 #include "task/plan/body_planner.h"
@@ -6,7 +6,7 @@
 
 namespace dihaptic::task {
 
-/// Plans a cell for each condition in each round. The plan's formulas must be compiled.
+/// Plans a cell for each condition in each round. The plan's formulas must already be compiled.
 void plan_cells(const Planning& given, const BodyPlanner& bodies, const SeenPlanner& seen);
 
 }  // namespace dihaptic::task

@@ -12,7 +12,7 @@ namespace dihaptic::task {
 namespace {
 
 constexpr size_t kMostTrials = 100000;
-constexpr size_t kMostPerturbations = 8;  // in a trial
+constexpr size_t kMostPerturbations = 8;  // maximum number of perturbations in a trial
 
 class BlockChecker {
   public:
@@ -105,8 +105,8 @@ class BlockChecker {
         check_together(which, place);
     }
 
-    /// At most one visual map and a limited number of loads can act in a tick. Reports the first
-    /// state with more.
+    /// Checks that no state has more than one visual map, or more loads than can act in a tick.
+    /// Reports the first state that does.
     void check_together(const std::vector<int>& which, const Place& place) {
         for (const TaskPlan::Cell& cell : plan_.cells) {
             for (size_t s = 0; s < std::min(task_.states.size(), TaskPlan::kMostStates); ++s) {
@@ -118,7 +118,7 @@ class BlockChecker {
     bool fit_together(const TaskPlan::Cell& cell, const std::vector<int>& which, int state,
                       const Place& place) {
         const std::string& where = task_.states[static_cast<size_t>(state)].name;
-        const std::string* map = nullptr;  // name of the perturbation
+        const std::string* map = nullptr;  // name of the perturbation with the visual map
         size_t loads = 0;
         for (const int i : which) {
             if (!cell.acts(i, state)) continue;
@@ -144,7 +144,7 @@ class BlockChecker {
         return false;
     }
 
-    /// Largest total number of trials that the block's procedures can request.
+    /// Largest total number of trials that the procedures of the block can request.
     size_t most_answers(const Block& block) {
         size_t out = 0;
         for (const int i : block.procedures.indices)
@@ -152,8 +152,8 @@ class BlockChecker {
         return out;
     }
 
-    /// Checks that a block has a perturbation, ramped or not, or procedures that choose one, or
-    /// neither, but not both.
+    /// Checks that a block has a perturbation, with or without a ramp, or procedures that choose
+    /// one, but not both. A block may also have neither.
     void check_ways_to_perturb(const Block& block) {
         if (!block.procedures.empty() && (!block.perturb.empty() || block.ramp > 0))
             error(block.place, "procedures", "already choose the perturbation and its share",
@@ -166,7 +166,8 @@ class BlockChecker {
             error(block.place, "ramp", "needs a perturbation", "Add 'perturb'.");
     }
 
-    /// Checks that each trial's kind, which determines its analysis, matches its perturbation.
+    /// Checks that the kind of each trial, which determines its analysis, is consistent with its
+    /// perturbation.
     void check_clamp(TrialKind kind, const std::vector<std::string>& perturb, const Place& place) {
         const bool channels = kind == TrialKind::force_channel;
         if (!channels && kind != TrialKind::visual_clamp) return;
@@ -188,7 +189,7 @@ class BlockChecker {
               channels ? remedy : "Write kind: force_channel.");
     }
 
-    /// Checks that a number that a procedure chooses has an effect.
+    /// Checks that each number chosen by a procedure has an effect.
     void check_levels_named() {
         for (size_t i = 0; i < task_.procedures.size(); ++i) {
             if (plan_.level_of_procedure[i] < 0) continue;

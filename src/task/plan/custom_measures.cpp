@@ -30,7 +30,8 @@ void check_name(const CustomMeasure& measure, const TaskPlan& plan, Diagnostics&
     }
 }
 
-/// The unit at the end of a column's name, e.g. "N/s" of rate_N_s; "" if there is none.
+/// Returns the unit at the end of a column's name, e.g. "N/s" for rate_N_s, or "" if the name has
+/// no unit.
 std::string unit_of(const std::string& column) {
     const NameInUnit name = split_unit(column);
     if (name.quantity == Quantity::none) return "";
@@ -96,7 +97,7 @@ CustomMeasures::CustomMeasures(TaskPlan plan)
 }
 
 void CustomMeasures::add(const frame::Frame& frame) {
-    // in the tick that ends an attempt, no perturbation acts any more
+    // perturbations have already ended in the tick that ends an attempt
     if (frame.task.outcome >= 0) return;
     const double now = seconds(frame.time);
     const bool begins = began_ < 0;
@@ -129,18 +130,20 @@ void CustomMeasures::add(const frame::Frame& frame) {
     }
 }
 
-/// Takes the mean of the values within a window's length, once the window is full of measured
-/// values.
+/// Adds a value to the window and, if the window is full of measured values, passes their mean on
+/// to the statistic.
 void CustomMeasures::add_to_window(size_t i, double now, double value) {
-    constexpr double kTolerance = 1e-6;  // sums of ticks have rounding errors [s]
+    constexpr double kTolerance = 1e-6;  // allows for rounding errors in sums of ticks [s]
     std::deque<std::pair<double, double>>& window = windows_[i];
     const double step = window.empty() ? 0 : now - window.back().first;
     if (std::isnan(value)) return window.clear();
     window.emplace_back(now, value);
-    const double from = now - plan_.custom_measures[i].window;  // tick before the window
+    // time of the last tick before the window
+    const double from = now - plan_.custom_measures[i].window;
     while (window.front().first <= from + kTolerance) window.pop_front();
     if (window.front().first > from + step + kTolerance) return;
-    double sum = 0;  // summed anew each time: a huge value would spoil a running sum for good
+    // computed anew each time, because one huge value would permanently spoil a running sum
+    double sum = 0;
     for (const auto& [time, one] : window) sum += one;
     taken_[i].add(sum / static_cast<double>(window.size()));
 }

@@ -1,4 +1,5 @@
-// Iterates over the parts of a struct that have a given type, through its visit() (base/field.h).
+// Iterates over the parts of a struct that have a given type, using the struct's visit()
+// (base/field.h).
 #pragma once
 
 #include <concepts>
@@ -12,7 +13,7 @@
 
 namespace dihaptic::task {
 
-/// An overload set of several functions.
+/// Combines several functions into an overload set.
 template <class... F>
 struct Overloaded : F... {
     using F::operator()...;
@@ -20,8 +21,8 @@ struct Overloaded : F... {
 template <class... F>
 Overloaded(F...) -> Overloaded<F...>;
 
-/// A visitor that calls f(value, key, place) with each value that f accepts, in a struct and its
-/// nested structs. `place`: of the struct that contains the value.
+/// A visitor that calls f(value, key, place) for each value that f accepts, in a struct and in the
+/// structs nested in it. `place` is that of the struct that directly contains the value.
 template <class F>
 class Each {
   public:

@@ -29,7 +29,8 @@ bool check_levels(const Factor& factor, Diagnostics& diagnostics) {
     return false;
 }
 
-/// One condition for each combination of levels; the last factor changes fastest.
+/// Returns one condition for each combination of levels. The level of the last factor changes
+/// fastest.
 std::vector<Condition> crossed(const Task& task) {
     std::vector<Condition> out(1);
     for (const Factor& factor : task.cross) {

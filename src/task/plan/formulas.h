@@ -11,9 +11,10 @@
 namespace dihaptic::task {
 
 struct CompiledFormula {
-    Formula formula;  ///< text of the formula, with its key, unit, bounds and place
+    Formula formula;  ///< text of the formula, with its key, unit, bounds and place in the file
     Expression expression;
-    double scale = 1;    ///< unit of the key, if the text has no dimension
+    /// Factor by which to multiply the value if the text has no dimension: the key's unit.
+    double scale = 1;
     double largest = 0;  ///< largest value over the planned trials
 
     double value(std::span<const double> values) const noexcept {
@@ -21,7 +22,7 @@ struct CompiledFormula {
     }
 };
 
-/// Calls f(Formula&) with each formula of a struct.
+/// Calls f(Formula&) for each formula in a struct.
 template <class Struct, class F>
 void each_formula(Struct& value, F f) {
     each(value, Overloaded{[&](Formula& formula, std::string_view, const Place&) { f(formula); },

@@ -35,7 +35,7 @@ void check_order(const Task& task, Diagnostics& diagnostics) {
     }
 }
 
-/// Whether all of the block's trials have a procedure that chooses this number.
+/// Whether every trial of the block has a procedure that chooses this number.
 bool chooses_always(const Task& task, const Block& block, const std::string& level) {
     const auto chooses = [&](const std::string& name) {
         return std::any_of(task.procedures.begin(), task.procedures.end(),
@@ -45,7 +45,7 @@ bool chooses_always(const Task& task, const Block& block, const std::string& lev
            std::all_of(block.procedures.begin(), block.procedures.end(), chooses);
 }
 
-/// Reports missing standards, and different standards for one number.
+/// Reports missing standards, and standards that differ for the same number.
 void check_standards(const Task& task, Diagnostics& diagnostics) {
     std::set<std::string> seen;
     for (const ProcedureSpec& first : task.procedures) {

@@ -1,4 +1,4 @@
-// Looks up names in experiment files, and writes the error for an unknown name.
+// Looks up names in experiment files, and reports errors for unknown names.
 #pragma once
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ std::vector<std::string> names_of(const List& list) {
     return out;
 }
 
-/// Whether the text is not empty and contains only letters, digits and _.
+/// Whether the text consists of one or more letters, digits and underscores.
 inline bool is_word(std::string_view text) {
     const auto letter = [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
@@ -33,7 +33,8 @@ inline bool is_word(std::string_view text) {
     return !text.empty() && std::all_of(text.begin(), text.end(), letter);
 }
 
-/// Index of the name in `names`, or -1 with the error "'x' is `what`".
+/// Returns the index of `name` in `names`. If there is none, returns -1 and reports the error "'x'
+/// is `what`".
 inline int look_up(const std::vector<std::string>& names, const std::string& name,
                    const Place& place, const std::string& key, const std::string& what,
                    Diagnostics& diagnostics) {
@@ -47,7 +48,8 @@ inline int look_up(const std::vector<std::string>& names, const std::string& nam
     return -1;
 }
 
-/// Unit vector along the given vector, or z with an error.
+/// Returns the unit vector along the given vector. If there is none, returns z and reports an
+/// error.
 inline Vec3 axis_of(const std::optional<Vec3>& given, const Place& place, const char* key,
                     Diagnostics& diagnostics) {
     constexpr double kSmall = 1e-9;
@@ -57,7 +59,7 @@ inline Vec3 axis_of(const std::optional<Vec3>& given, const Place& place, const 
     return Vec3::UnitZ();
 }
 
-/// Reports an error for each duplicate name.
+/// Reports an error for each name that occurs more than once.
 template <class T>
 void check_names(const std::vector<T>& list, const char* what, Diagnostics& diagnostics) {
     std::set<std::string_view> names;

@@ -50,7 +50,7 @@ bool acts_on(const PerturbationSpec& spec, const Movement& movement) {
                        [&](const LoadSpec& load) { return acts_on(load, movement); });
 }
 
-/// The perturbation whose field defines the ideal force; null if there is none.
+/// Returns the perturbation whose field defines the ideal force, or null if there is none.
 const PerturbationSpec* ideal_of(const Task& task, const Movement& movement) {
     for (const PerturbationSpec& spec : task.perturbations) {
         if (movement.ideal.empty() ? pushes_by_velocity(spec) : spec.name == movement.ideal)
@@ -95,7 +95,7 @@ class MeasureChecker {
         look_up(names_of(task_.states), name, place_, key, "not a state", diagnostics_);
     }
 
-    /// Checks that there are trials to compare; names have been looked up elsewhere.
+    /// Checks that there are trials to compare. The names in the spec are looked up elsewhere.
     void check_corrections(const CorrectionSpec& spec) {
         if (spec.axis.isZero(1e-9))
             diagnostics_.error(spec.place, "axis", "has no direction", "Write e.g. [1, 0, 0].");
@@ -214,7 +214,7 @@ class MeasureChecker {
 };
 
 /// Whether the load is a channel that prevents lateral motion, rather than a plane that contains
-/// the movement. `regions_W`: centres of the regions [m].
+/// the movement. `regions_W` are the centres of the regions [m].
 bool holds_to_line(const Load& load, std::span<const Vec3> regions_W,
                    const MovementPlan& movement) {
     constexpr double kAside = 1e-3;  // [m]
@@ -228,8 +228,8 @@ bool holds_to_line(const Load& load, std::span<const Vec3> regions_W,
            load.stiffness() * kAside / 2;
 }
 
-/// Compares the trial's perturbations with the ideal field, and finds whether one is a channel.
-/// `cell`: of the trial, with its numbers resolved.
+/// Compares the trial's perturbations with the ideal field, and determines whether one of them is a
+/// channel. `cell` is that of the trial, with its numbers resolved.
 void compare(MovementPlan& out, const Task& task, const TaskPlan::Cell& cell, const Trial& trial,
              const Movement& movement) {
     const PerturbationSpec* ideal = ideal_of(task, movement);

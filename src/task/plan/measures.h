@@ -1,6 +1,6 @@
-// Published measures by name: the entries for `measures` in a task, their requirements, and the
-// movement that they analyse. src/analysis/measures computes them; docs/measures-of-behaviour.md
-// gives the equations.
+// Published measures, listed by name: the values that `measures` can have in a task, the
+// requirements of each measure, and the movement that measures analyse. src/analysis/measures
+// computes the measures; docs/measures-of-behaviour.md gives the equations.
 #pragma once
 
 #include <array>
@@ -23,26 +23,27 @@ namespace dihaptic::task {
 
 struct TaskPlan;
 
-/// A column of trials.csv; units as in base/figure.h.
+/// A column of trials.csv. Units are written as in base/figure.h.
 struct MeasureColumn {
     const char* name = nullptr;
     const char* unit = "";
     const char* what = "";
-    /// Bounds of the column's plausible range, in its unit: a value outside it is due to the
-    /// recording or the measure's rule, not the person, and is left out.
+    /// Bounds of the column's plausible range, in the column's unit. A value outside the range is
+    /// left out: it must be due to the recording or to the rule of the measure, not to the person.
     double least = 0;
     double most = 0;
 };
 
 struct MeasureRow {
-    /// Requirements of the measure: a movement; a channel; a field with an ideal force; an object
-    /// and two fingers; a state that starts with a load step. begun: the movement need not have
-    /// ended.
+    /// Requirements of a measure: a movement; a channel; a field with an ideal force; an object and
+    /// two fingers; a state that starts with a load step; or, for `begun`, a movement that need not
+    /// have ended.
     enum Needs : unsigned { movement = 1, channel = 2, ideal = 4, grip = 8, step = 16, begun = 32 };
     const char* name;
     unsigned needs;
     const char* source;
-    std::array<MeasureColumn, 5> columns;  ///< unused ones at the end are empty
+    /// Columns of the measure; unused elements at the end are empty.
+    std::array<MeasureColumn, 5> columns;
 };
 
 inline constexpr unsigned kMoves = MeasureRow::movement;
@@ -165,20 +166,20 @@ inline constexpr MeasureRow kMeasureTable[] = {
      {{{"grip_latency", "s", "from the load step until grip force responds", 0, 10}}}},
 };
 
-/// The row with this name; null if there is none.
+/// Returns the row with this name, or null if there is none.
 const MeasureRow* measure_row(const std::string& name);
-/// The columns of a measure in files.
+/// Returns the columns that a measure has in files.
 std::vector<Table::Column> columns_of_measure(const MeasureRow& row);
-/// The name in files of the column called `error` without its unit; "" if none of the measures has
-/// this column.
+/// Returns the name that the column called `error` (without its unit) has in files, or "" if none
+/// of the measures has this column.
 std::string error_column(const std::vector<std::string>& measures, const std::string& error);
-/// The columns of all measures, and kNotMeasured.
+/// Returns the columns of all measures, and kNotMeasured.
 std::vector<Table::Column> measure_columns();
-/// Name of the column that lists a trial's missing measures with reasons.
+/// Name of the column that lists the measures missing from a trial, with reasons.
 inline constexpr const char* kNotMeasured = "not_measured";
 Table::Column not_measured_column();
 
-/// Statistic of the values in an attempt's ticks.
+/// Statistic of a measure's values over the ticks of an attempt.
 enum class Take { first, last, min, max, mean, median, sd, rms };
 constexpr auto enum_names(Take) {
     return std::array{"first", "last", "min", "max", "mean", "median", "sd", "rms"};
@@ -188,12 +189,13 @@ struct State;
 
 /// A custom measure of a task.
 struct CustomMeasure {
-    std::string name;  ///< the measure's column in trials.csv, with the unit
-    std::string of;    ///< an expression, evaluated in each tick
-    std::string when;  ///< condition that selects ticks; empty: all
+    std::string name;  ///< name of the measure's column in trials.csv, with the unit
+    std::string of;    ///< expression that is evaluated in each tick
+    std::string when;  ///< condition that selects ticks; if empty, all ticks are used
     Take take = Take::max;
-    std::optional<double> window;  ///< length of the moving means whose statistic is taken [s]
-    RefList<State> during;         ///< empty: all
+    /// Length of a moving mean, applied before the statistic is computed [s].
+    std::optional<double> window;
+    RefList<State> during;  ///< if empty, all states
     Place place;
 
     template <class Visitor>
@@ -217,23 +219,28 @@ struct CustomMeasure {
 
 /// The movement that a task's measures analyse. Keys omitted here are copied from `reach`.
 struct Movement {
-    std::string of;                   ///< finger, body, or `hand`: the middle of all handles
-    std::string from;                 ///< region
-    std::string to;                   ///< region
-    std::vector<std::string> during;  ///< states
-    std::string go;    ///< state that starts with the go signal; empty: the first of `during`
+    std::string of;                   ///< finger, body, or `hand` for the middle of all handles
+    std::string from;                 ///< region at the start of the movement
+    std::string to;                   ///< region at the end of the movement
+    std::vector<std::string> during;  ///< states in which the movement takes place
+    std::string go;    ///< state that starts with the go signal; if empty, the first of `during`
     std::string step;  ///< state that starts with a load step
-    /// Speed that defines movement onset: absolute, or else a share of the peak speed.
+    /// Speed that defines movement onset: an absolute speed or, if this is unset, a share of the
+    /// peak speed.
     std::optional<double> onset_speed;  ///< [m/s]
     double onset_share = 0.05;
-    double end_still = 0;           ///< time below that speed needed to end the movement [s]
-    double direction_after = 0.1;   ///< from onset to the initial direction [s]
-    double deviation_after = 0.15;  ///< from onset to the early lateral deviation [s]
-    bool continues = false;         ///< whether movements can begin before their states
-    std::optional<Vec3> axis;       ///< like ReachMeasure::axis
-    std::string ideal;  ///< perturbation whose field defines the ideal force; empty: the first
-    /// Column of a listed measure, without its unit: the error to which adaptation is fitted, since
-    /// it shows how much of a perturbation is not yet learned.
+    /// Time for which the speed must stay below that of onset to end the movement [s].
+    double end_still = 0;
+    /// Time from onset to the measurement of the initial direction [s].
+    double direction_after = 0.1;
+    /// Time from onset to the measurement of the early lateral deviation [s].
+    double deviation_after = 0.15;
+    bool continues = false;    ///< whether movements can begin before the states `during`
+    std::optional<Vec3> axis;  ///< like ReachMeasure::axis
+    /// Perturbation whose field defines the ideal force; if empty, the first one.
+    std::string ideal;
+    /// Column of a listed measure, named without its unit. The column contains the error to which
+    /// adaptation is fitted, i.e. how much of a perturbation has not been learned yet.
     std::string error;
     Place place;
 
@@ -285,23 +292,24 @@ struct Movement {
           says("Value of a listed measure to which adaptation is fitted, by condition."));
     }
 };
-/// The states in which a custom measure is taken, one bit each.
+/// Returns the states in which a custom measure is taken, one bit for each state.
 uint64_t states_of(const CustomMeasure& measure);
 inline constexpr const char* kHand = "hand";
 
-/// A trial's movement, as frozen in trial-list.csv.
+/// The movement of a trial, as frozen in trial-list.csv.
 struct MovementPlan {
     Vec3 from_W = Vec3::Zero();
     Vec3 to_W = Vec3::Zero();
     Vec3 axis_W = Vec3::UnitZ();
-    int channel = 0;  ///< 1: confined by a channel
-    /// States in which that channel acts, one bit each; not in trial-list.csv.
+    int channel = 0;  ///< 1 if the movement is confined by a channel, otherwise 0
+    /// States in which the channel acts, one bit for each state. Not stored in trial-list.csv.
     uint64_t channel_states = ~uint64_t{0};
-    double field_share = 0;     ///< ratio of the trial's field to the ideal one; NaN in a channel
-    Mat3 ideal = Mat3::Zero();  ///< matrix from velocity to the force of the ideal field [N*s/m]
+    double field_share = 0;  ///< ratio of the trial's field to the ideal field; NaN in a channel
+    /// Matrix that maps velocity to the force of the ideal field [N*s/m].
+    Mat3 ideal = Mat3::Zero();
 
-    /// Unit vectors along the line, and across it to the left as seen from the tip of the axis; NaN
-    /// if undefined.
+    /// Unit vectors: along_W() points along the line, and left_W() points across the line, to its
+    /// left as seen from the tip of the axis. NaN if undefined.
     Vec3 along_W() const { return (to_W - from_W).normalized(); }
     Vec3 left_W() const;
 
@@ -324,19 +332,20 @@ struct MovementPlan {
 };
 
 struct Task;
-/// The task's movement, with defaults filled in. `first_finger`: default for `of`.
+/// Returns the task's movement, with defaults filled in. `first_finger` is the default for `of`.
 Movement movement_of(const Task& task, const std::string& first_finger);
 
-/// Checks the names of a task's measures, and that the task meets their requirements.
+/// Checks the names of a task's measures, and checks that the task meets the requirements of these
+/// measures.
 void check_measures(const TaskPlan& plan, const scene::Scene& scene, Diagnostics& diagnostics);
 
-/// The movements by trial; none if the task's measures need no movement.
+/// Returns the movement of each trial, or an empty list if the task's measures need no movement.
 std::vector<MovementPlan> movements_of(const TaskPlan& plan, const scene::Scene& scene);
-/// Adds columns for the numbers of the trials' movements to a list with one row per trial.
+/// Appends columns with the numbers of each trial's movement to a list that has one row per trial.
 void add_movements(Table& list, const TaskPlan& plan, const scene::Scene& scene);
-/// Name of the first column on movements; columns on reaches precede it.
+/// Name of the first column that describes movements; columns that describe reaches precede it.
 inline constexpr const char* kFirstMovementColumn = "movement_from_x_mm";
-/// Reads the movements by trial; none if the task's measures need no movement.
+/// Reads the movement of each trial. Returns an empty list if the task's measures need no movement.
 std::vector<MovementPlan> read_movements(const std::string& file);
 
 }  // namespace dihaptic::task

@@ -3,7 +3,7 @@
 namespace dihaptic::task {
 namespace {
 
-/// Loads act on bodies and, through handles, on fingers.
+/// Names of the things that loads can act on: bodies and, through their handles, fingers.
 std::vector<std::string> things_of(const scene::Scene& scene) {
     std::vector<std::string> out = names_of(scene.bodies);
     for (const scene::Finger& finger : scene.fingers) out.push_back(finger.name);

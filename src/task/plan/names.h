@@ -1,4 +1,4 @@
-// The things to which names in a task can refer.
+// The things in a task that names can refer to.
 #pragma once
 
 #include <tuple>
@@ -9,11 +9,11 @@
 
 namespace dihaptic::task {
 
-/// All named things of one kind.
+/// The names of all things of one kind.
 template <class T>
 struct Known {
     std::vector<std::string> names;
-    const char* unknown;  ///< predicate in the error for an unknown name
+    const char* unknown;  ///< predicate of the error message for an unknown name
 };
 
 class Names {
@@ -24,15 +24,16 @@ class Names {
     const std::vector<std::string>& all() const {
         return std::get<Known<T>>(known_).names;
     }
-    /// Index of the T with this name, or -1 with an error.
+    /// Returns the index of the T with this name. If there is none, returns -1 and reports an
+    /// error.
     template <class T>
     int find(const std::string& name, const Place& place, std::string_view key,
              Diagnostics& diagnostics) const {
         return look_up(all<T>(), name, place, std::string(key), std::get<Known<T>>(known_).unknown,
                        diagnostics);
     }
-    /// Index of the T in question; -1, with an error, if the name is missing. resolve() reports
-    /// unknown names.
+    /// Returns the index of the T that `ref` refers to. If the name is missing, returns -1 and
+    /// reports an error. Unknown names are reported by resolve().
     template <class T>
     int need(const Ref<T>& ref, const Place& place, std::string_view key,
              Diagnostics& diagnostics) const {
@@ -46,15 +47,16 @@ class Names {
         known_;
 };
 
-/// The shared data of all parts of planning.
+/// The data shared by all parts of planning.
 struct Planning {
-    TaskPlan& plan;  ///< has the task, its references resolved, and the parts planned so far
+    /// Contains the task with its references resolved, and the parts planned so far.
+    TaskPlan& plan;
     const Names& names;
     const scene::Scene& scene;
     Diagnostics& diagnostics;
 };
 
-/// Looks up all references in a part of a task. Unknown names are errors.
+/// Looks up all references in a part of a task. Reports an error for each unknown name.
 template <class Struct>
 void resolve(Struct& value, const Names& names, Diagnostics& diagnostics) {
     const auto one = [&]<class T>(Ref<T>& ref, std::string_view key, const Place& place) {

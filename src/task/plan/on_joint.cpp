@@ -46,7 +46,7 @@ OnJoint on_joint(const scene::Scene& scene, const scene::Joint& joint) {
 
 namespace {
 
-/// Checks a placement without a joint.
+/// Checks a placement that does not use a joint.
 void check_body(const BodyPlace& place, Diagnostics& diagnostics) {
     const auto refuse_key = [&](const char* key, bool given) {
         if (given)

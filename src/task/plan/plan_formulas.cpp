@@ -20,7 +20,7 @@ bool is_identifier(std::string_view text) {
     return is_word(text) && std::isdigit(static_cast<unsigned char>(text.front())) == 0;
 }
 
-/// Defines the quantities that a task names, and reports invalid names.
+/// Defines the quantities that have names in a task, and reports invalid names.
 class Definer {
   public:
     Definer(TaskPlan& plan, Diagnostics& diagnostics) : plan_(plan), diagnostics_(diagnostics) {}
@@ -45,7 +45,7 @@ class Definer {
     }
 
   private:
-    /// Whether the name can be used in a formula, and as a column next to the others.
+    /// Whether the name can be used in a formula, and as a column next to existing columns.
     bool check_name(const std::string& name, const Place& place, const char* key) {
         const std::string plain(split_unit(name).name);
         Diagnostics ignored;
@@ -80,7 +80,7 @@ class Definer {
         return out;
     }
 
-    /// Defines the quantity with the name of the round.
+    /// Defines the quantity whose value is the name of the round.
     void define_round(const Task& task) {
         std::vector<std::string> names = names_of(task.rounds);
         const auto beside = [](const Block& block) { return block.once != Once::no; };
@@ -119,7 +119,7 @@ class Definer {
                                    : unit.si * *finite_number(level));
         }
         const bool of_rounds = &owners == &plan_.task.rounds;
-        if (of_rounds) levels.push_back(kUnmeasured);  // outside the rounds
+        if (of_rounds) levels.push_back(kUnmeasured);  // value outside the rounds
         plan_.symbols.factors.push_back({symbol.slot, levels, of_rounds});
     }
 
@@ -136,7 +136,8 @@ class Definer {
         return true;
     }
 
-    /// Defines a number that changes during the session; `start` is in the unit of its name.
+    /// Defines a number that changes during the session. `start` is in the unit of the number's
+    /// name.
     void define(const std::string& name, double start, Kind kind, const Place& place,
                 const char* key) {
         const NameInUnit unit = split_unit(name);
@@ -173,8 +174,8 @@ class Definer {
     Diagnostics& diagnostics_;
 };
 
-/// Whether the text contains an angle: the value is then in radians, and otherwise in the unit of
-/// the key.
+/// Whether the text names an angle. If it does, its value is in radians; otherwise, its value is in
+/// the unit of the key.
 bool names_angle(const TaskPlan& plan, std::string_view text) {
     const auto is_angle = [&](std::string_view name) {
         const auto named = [&](std::string_view key) {
@@ -187,7 +188,7 @@ bool names_angle(const TaskPlan& plan, std::string_view text) {
                                [&](const auto& item) { return named(item.name); });
         };
         const std::vector<Factor> factors = factors_of(task);
-        // atan2() and a joint's angle are in radians, even if the text names no unit
+        // atan2() and joint angles are in radians, even if the text contains no unit
         return name == "deg" || name == "rad" || name == "atan2" || name == "angle" ||
                any(task.draws) || any(task.variables) || any(task.custom_measures) ||
                std::any_of(factors.begin(), factors.end(),
@@ -211,7 +212,7 @@ void formula_error(const Formula& formula, const std::string& what, const std::s
 }
 
 void compile_all(TaskPlan& plan, Diagnostics& diagnostics) {
-    // a failure is reported once: the formula is then replaced with a number
+    // a failing formula is replaced with a number, so that the failure is reported only once
     each_formula(plan.task, [&](Formula& formula) {
         if (!formula.computed() || finite_number(formula.text)) return;
         auto compiled = compile_formula(formula, plan, plan.quantities, diagnostics);
@@ -305,7 +306,7 @@ void plan_formulas(TaskPlan& plan, Diagnostics& diagnostics) {
 
 namespace {
 
-/// Names of custom measures in rules, without their units.
+/// Prefix of a custom measure's name in rules; the name is used there without its unit.
 constexpr const char* kMeasurePrefix = "measure.";
 
 std::vector<int> define_measures(TaskPlan& plan) {
@@ -319,7 +320,7 @@ std::vector<int> define_measures(TaskPlan& plan) {
     return slots;
 }
 
-/// A measure that a rule names must be the only one of that name, apart from its unit.
+/// Checks that no two measures have the name used in a rule, apart from their units.
 void check_alone(const CustomMeasure& measure, const Task& task, Diagnostics& diagnostics) {
     const std::string_view name = split_unit(measure.name).name;
     for (const CustomMeasure& other : task.custom_measures) {
@@ -331,7 +332,7 @@ void check_alone(const CustomMeasure& measure, const Task& task, Diagnostics& di
     }
 }
 
-/// Plans the look-backs of the rules, and the custom measures that the rules name.
+/// Plans the look-backs of rules, and the custom measures named in rules.
 void plan_what_rules_need(TaskPlan& plan, const std::vector<int>& slots, Diagnostics& diagnostics) {
     std::vector<const Expression*> rules;
     const auto add = [&](const Expression& rule) {
@@ -358,7 +359,7 @@ void plan_what_rules_need(TaskPlan& plan, const std::vector<int>& slots, Diagnos
             continue;
         }
         const Formula of = formula_of(measure.of, measure.name, "of", measure.place);
-        Diagnostics told;  // discarded: plan_custom_measures() reports these
+        Diagnostics told;  // discarded, because plan_custom_measures() reports these problems
         auto compiled = compile_formula(of, plan, plan.quantities, told);
         if (!compiled) continue;
         TaskPlan::RuleMeasure added{{std::move(*compiled), {}, measure.take, 0, states_of(measure)},

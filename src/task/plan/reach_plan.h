@@ -1,4 +1,4 @@
-// The measurement of each trial's reach (ReachMeasure), frozen in the trial's row of
+// How each trial's reach is measured (ReachMeasure). This is frozen in the trial's row of
 // trial-list.csv, in columns named reach_...
 #pragma once
 
@@ -15,11 +15,11 @@ struct ReachPlan {
     double distance = 0;         ///< distance from from_W at which the angle is measured [m]
     Vec3 from_W = Vec3::Zero();  ///< [m]
     Vec3 to_W = Vec3::Zero();
-    Vec3 axis_W = Vec3::UnitZ();  ///< axis of the angles; unit vector
+    Vec3 axis_W = Vec3::UnitZ();  ///< axis about which angles are measured, a unit vector
     std::string phases;           ///< phases in which the reach is measured, e.g. "2 3"
     Measure measure = Measure::angle;
 
-    /// Numbers in `phases`.
+    /// Returns the numbers listed in `phases`.
     std::vector<int> phase_numbers() const;
 
     template <class Self, class Visitor>
@@ -35,19 +35,19 @@ struct ReachPlan {
     }
 };
 
-/// Adds the columns of the reaches to a list with one row per trial of the plan. The task must
+/// Appends the columns for reaches to a list with one row for each trial of the plan. The task must
 /// measure a reach.
 void add_reaches(Table& list, const TaskPlan& plan, const scene::Scene& scene);
 
-/// Name of the first column on reaches; the list's own columns precede it.
+/// Name of the first column for reaches; the list's own columns precede it.
 inline constexpr const char* kFirstReachColumn = "reach_finger";
 
-/// The axis of the cell's first perturbation that has one: trials with and without the block's
-/// perturbation are measured alike.
+/// Axis of the first of the cell's perturbations that has an axis. It is used in trials with and
+/// without the block's perturbation, so that both are measured in the same way.
 Vec3 usual_axis(const TaskPlan::Cell& cell);
 
-/// Reads the reaches from trial-list.csv, by trial; none if the task measures none. In a truncated
-/// line, missing fields are read as an empty finger and NaN.
+/// Reads the reach of each trial from trial-list.csv. Returns an empty list if the task measures no
+/// reach. In a truncated line, missing fields are read as an empty finger and NaN.
 std::vector<ReachPlan> read_reaches(const std::string& file);
 
 }  // namespace dihaptic::task

@@ -11,8 +11,9 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr size_t kMostLines = 2;   // lines in a state, and in the task
-constexpr size_t kMostInText = 4;  // numbers
+// maximum number of lines in a state, and of lines for the whole task
+constexpr size_t kMostLines = 2;
+constexpr size_t kMostInText = 4;                                   // numbers
 static_assert(frame::TaskFrame::kMostLines == 2 * kMostLines + 2);  // countdown, feedback
 static_assert(frame::TaskFrame::kMostNumbers == kMostInText * (1 + frame::TaskFrame::kMostLines));
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kSkipped = "skipped";
 
-/// A name in the notation of expressions.
+/// Returns a name in the notation used in expressions.
 std::string quoted(const std::string& name) {
     std::string out = "\"";
     for (const char c : name) {
@@ -23,7 +23,7 @@ std::string quoted(const std::string& name) {
     return out + '"';
 }
 
-/// A number of a condition in the notation of expressions.
+/// Returns a number in a condition, in the notation used in expressions.
 std::string as_expression(const Formula& number, const TaskPlan& plan, const char* unit) {
     if (number.index < 0) return fmt::format("{}", number.value);
     const CompiledFormula& compiled = plan.formulas[static_cast<size_t>(number.index)];
@@ -31,7 +31,7 @@ std::string as_expression(const Formula& number, const TaskPlan& plan, const cha
     return fmt::format("({}) * {} {}", number.text, number.to_si, unit);
 }
 
-/// The expression for a condition of the table; "" if the condition has no expression.
+/// Returns an expression that is equivalent to a condition of the table, or "" if no expression is.
 std::string as_expression(const Exit& exit, const TaskPlan& plan) {
     const std::string who = quoted(exit.what.empty() ? exit.finger : exit.what);
     const std::string body = quoted(exit.body);
@@ -91,7 +91,7 @@ class StatePlanner : Planning {
         diagnostics.error(place, key, what, remedy, std::move(choices));
     }
 
-    /// The sound that starts at `where`, as one bit.
+    /// Returns a mask with the bit of the sound that starts at `where`.
     uint32_t sound(int index, const Place& where, const char* key) {
         if (index < 0 || index >= TaskPlan::kMostSounds) return 0;
         if ((plan.throughout >> index & 1u) != 0)
@@ -102,7 +102,7 @@ class StatePlanner : Planning {
         return 1u << index;
     }
 
-    /// The sound that an exit starts, as one bit.
+    /// Returns a mask with the bit of the sound that the exit starts.
     uint32_t sound(const Exit& exit) {
         const uint32_t out = sound(exit.sound.index, exit.place, "sound");
         if ((out & plan.going_on) != 0)
@@ -152,8 +152,8 @@ class StatePlanner : Planning {
         return out;
     }
 
-    /// A question that several states ask must be the same in all of them, because it has only one
-    /// column.
+    /// Checks that a question asked by several states is the same in all of them, because it has
+    /// only one column.
     void check_same(const AskSpec& ask) {
         for (const AskSpec& known : questions_of(plan.task)) {
             if (known.name != ask.name) continue;
@@ -212,8 +212,8 @@ class StatePlanner : Planning {
         return out;
     }
 
-    /// Adds both outcomes of a choice and returns one of them; the trial determines which one
-    /// applies.
+    /// Adds both possible outcomes of a choice and returns one of them. The trial determines which
+    /// of the two applies.
     int choice(const Exit& exit) {
         if (plan.comparison < 0)
             error(exit.place, "chooses", "no state has an interval that can be chosen",
@@ -241,7 +241,7 @@ class StatePlanner : Planning {
         return out;
     }
 
-    /// Reports a single word that is not a quantity as a misspelt word of kWhenTable.
+    /// Reports a single word that is not a quantity, as a misspelling of a word in kWhenTable.
     void check_word(const Exit& exit) {
         const std::string& text = exit.condition;
         if (!is_word(text) || plan.quantities.find(text)) return;
@@ -279,7 +279,7 @@ class StatePlanner : Planning {
             error(exit.place, "hold", "a trigger has no duration", "Leave it out.");
     }
 
-    /// Checks the finger, hand or body of the condition.
+    /// Checks the finger, hand or body to which the condition refers.
     void check_who(const Exit& exit) {
         if (!exit.what.empty()) {
             const int i = look_up(plan.quantities.things(), exit.what, exit.place, "what",
@@ -337,7 +337,8 @@ class StatePlanner : Planning {
     SeenPlanner& seen_;
 };
 
-/// Checks that every state is reachable from one in which trials begin, and leads out of the trial.
+/// Checks that every state can be reached from a state in which trials begin, and that every state
+/// leads to the end of the trial.
 void check_ways(const TaskPlan& plan, Diagnostics& diagnostics) {
     const size_t n = plan.states.size();
     std::vector<char> reached(n, 0);

@@ -6,10 +6,10 @@
 
 namespace dihaptic::task {
 
-/// Plans all states and the outcomes of trials. The plan's formulas must be compiled.
+/// Plans all states and the outcomes of trials. The plan's formulas must already be compiled.
 void plan_states(const Planning& given, BodyPlanner& bodies, SeenPlanner& seen);
 
-/// The set of the named fingers.
+/// Returns the set of the named fingers.
 scene::FingerSet fingers_of(const RefList<scene::Finger>& names);
 
 }  // namespace dihaptic::task

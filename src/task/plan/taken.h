@@ -1,4 +1,4 @@
-// The statistic of a custom measure's values in the ticks of an attempt.
+// The statistic of a custom measure's values over the ticks of an attempt.
 #pragma once
 
 #include <cstdint>
@@ -9,27 +9,28 @@
 
 namespace dihaptic::task {
 
-/// Collects the values and computes the statistic; allocates nothing, except for the median.
+/// Collects values and computes a statistic. It does not allocate, except for the median.
 class Taken {
   public:
     explicit Taken(Take take) : take_(take) {}
-    /// Adds a value; unmeasured values are ignored.
+    /// Adds a value, unless it is unmeasured.
     void add(double value);
-    /// The statistic; NaN if no value was added.
+    /// Returns the statistic, or NaN if no value was added.
     double statistic() const;
     void clear() { *this = Taken(take_); }
 
   private:
     Take take_;
     int64_t ticks_ = 0;
-    double value_ = 0;         // first, last, least, largest, or mean
-    double mean_ = 0;          // for the SD
-    double squares_ = 0;       // sum, of the values (rms) or of deviations from the mean (SD)
-    std::vector<double> all_;  // all values, for the median
+    double value_ = 0;  // first, last, smallest or largest value, or mean, depending on `take_`
+    double mean_ = 0;   // mean, used for the standard deviation
+    // sum of squares: of the values (rms), or of their deviations from the mean (sd)
+    double squares_ = 0;
+    std::vector<double> all_;  // all values, used for the median
 };
 
-/// The median; for an even number of values, the mean of the middle two. Reorders the values; NaN
-/// if there are none.
+/// Returns the median; for an even number of values, this is the mean of the middle two. Reorders
+/// the values. Returns NaN if there are no values.
 double median_of(std::span<double> x) noexcept;
 
 }  // namespace dihaptic::task

@@ -22,7 +22,8 @@
 namespace dihaptic::task {
 namespace {
 
-/// The text shown while a finger is in the way of an object: how far the finger has to move.
+/// Returns the text shown while a finger is in the way of an object, which says how far the finger
+/// has to move.
 std::string move_away(const scene::Scene& scene) {
     double most = 0;
     for (const scene::Finger& finger : scene.fingers) most = std::max(most, reach_of(finger));
@@ -63,7 +64,7 @@ void check_lists(const Task& task, Diagnostics& diagnostics) {
                           "Add at least one, with its trials.");
 }
 
-/// Plans a task part by part; each part may refer only to parts planned before it.
+/// Plans a task part by part. Each part may refer only to parts that have already been planned.
 class Planner : Planning {
   public:
     explicit Planner(const Planning& given) : Planning(given), seen_(given), bodies_(given) {}
@@ -99,7 +100,7 @@ class Planner : Planning {
                                       .joints = names.all<scene::Joint>(),
                                       .regions = names.all<Region>(),
                                       .hands = hands()});
-        // bodies that no trial places start where the scene has them
+        // bodies that no trial places start at their positions in the scene
         for (size_t i = 0; i < scene.bodies.size(); ++i)
             plan.quantities.set(plan.quantities.start(i), scene.bodies[i].pose().p);
         plan.bodies = scene.bodies.size();
@@ -123,7 +124,7 @@ class Planner : Planning {
         return out;
     }
 
-    /// Each participant has a hand, whose fingers follow those of the previous participant.
+    /// Plans the hand of each participant; its fingers follow those of the previous participant.
     void plan_participants() {
         const RefList<Hand>& hands = plan.task.participants;
         if (hands.empty()) return;
@@ -179,7 +180,8 @@ class Planner : Planning {
                               "Write e.g. axis: [0, 0, 1].");
     }
 
-    /// Checks a region of a reach, whose measurement is frozen before the session.
+    /// Checks a region used by a reach, because the measurement of reaches is frozen before the
+    /// session.
     void check_fixed(int region, const Place& place, const char* key) {
         if (region < 0) return;
         for (const TaskPlan::Cell& cell : plan.cells) {

@@ -29,7 +29,8 @@ void shuffle(std::vector<int>& list, Random& random) {
     }
 }
 
-/// (0, n-1, 1, n-2, ...) + row, modulo n; for odd n, rows from n on are mirrored.
+/// Returns a row of Williams's design: (0, n-1, 1, n-2, ...) + row, modulo n. For odd n, the rows
+/// from n on are mirrored.
 std::vector<int> williams_row(int n, int row) {
     std::vector<int> out;
     const bool mirrored = n % 2 == 1 && row % (2 * n) >= n;
@@ -63,7 +64,7 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
     return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
-/// Finds things by name quickly, for lists with thousands of trials.
+/// Finds things by name quickly, since lists can have thousands of trials.
 class Index {
   public:
     template <class Thing>
@@ -80,7 +81,7 @@ class Index {
     std::unordered_map<std::string, int> by_name_;
 };
 
-/// Names in a cell of the column `perturbation`.
+/// Splits a cell of the column `perturbation` into names.
 std::vector<std::string> names_in(const std::string& cell) {
     std::vector<std::string> out;
     if (cell.empty()) return out;
@@ -94,8 +95,8 @@ std::vector<std::string> names_in(const std::string& cell) {
     return out;
 }
 
-/// The largest number of trials of each procedure, interleaved so that participants cannot tell
-/// which procedure comes next.
+/// Returns the largest number of trials that each procedure can request, interleaved so that
+/// participants cannot tell which procedure comes next.
 std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial trial,
                                     Random& random) {
     std::vector<int> turns;
@@ -114,8 +115,8 @@ std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial 
     return out;
 }
 
-/// The block's conditions, as indices into the task's conditions; all if the block lists none, and
-/// the unnamed one if the task has none.
+/// Returns the indices of the block's conditions: all of the task's conditions if the block lists
+/// none, and the unnamed condition if the task has none.
 std::vector<int> conditions_of(const Task& task, const Block& block) {
     std::vector<int> out = block.conditions.indices;
     if (out.empty()) {
@@ -125,7 +126,7 @@ std::vector<int> conditions_of(const Task& task, const Block& block) {
     return out;
 }
 
-/// Assigns conditions to trials in the block's order, which is repeated as needed.
+/// Assigns conditions to trials in the block's order, repeating this order as needed.
 void deal_conditions(const std::vector<int>& conditions, Order order, int number, Random& random,
                      std::vector<Trial>& trials) {
     const int n = static_cast<int>(conditions.size());
@@ -137,13 +138,13 @@ void deal_conditions(const std::vector<int>& conditions, Order order, int number
     }
 }
 
-/// Deals every condition once in each repeat.
+/// Returns trials in which every condition occurs once in each repeat.
 std::vector<Trial> repeated_trials(const std::vector<int>& conditions, const Block& block,
                                    Trial trial, int number, Random& random) {
     const int n = static_cast<int>(conditions.size());
     std::vector<Trial> out;
     for (int repeat = 0; repeat < block.repeats; ++repeat) {
-        // a Latin square continues from repeat to repeat
+        // rows of a Latin square continue from one repeat to the next
         const int row = block.order == Order::latin_square ? number + repeat : number;
         for (const int i : ordered(n, block.order, row, random)) {
             trial.condition = conditions[static_cast<size_t>(i)];
@@ -153,8 +154,9 @@ std::vector<Trial> repeated_trials(const std::vector<int>& conditions, const Blo
     return out;
 }
 
-/// Inserts trials at random positions, each after another trial, so that none comes first.
-/// Positions with a gap between them are drawn without the gap and then moved apart.
+/// Inserts trials at random positions. Each inserted trial follows another trial, so it is never
+/// the first. To keep a gap between inserted trials, positions are drawn without the gap and then
+/// moved apart.
 void insert_trials(const Insert& insert, Random& random, std::vector<Trial>& trials) {
     const int gaps = (insert.count - 1) * (insert.gap - 1);
     const auto places = ordered(static_cast<int>(trials.size()) - gaps, Order::shuffled, 0, random);
@@ -165,7 +167,7 @@ void insert_trials(const Insert& insert, Random& random, std::vector<Trial>& tri
     for (int k = 0; k < insert.count; ++k)
         which[static_cast<size_t>(k)] += (insert.count - 1 - k) * (insert.gap - 1);
     const std::vector<int>& conditions = insert.conditions.indices;
-    size_t left = which.size();  // trials are inserted from the last to the first
+    size_t left = which.size();  // trials are inserted starting with the last
     for (const int i : which) {
         Trial extra = trials[static_cast<size_t>(i)];
         --left;
@@ -178,9 +180,10 @@ void insert_trials(const Insert& insert, Random& random, std::vector<Trial>& tri
     }
 }
 
-/// The block's trials, in order. Conditions are shuffled with `own`, the participant's stream, if
-/// there is one, otherwise with the seed's stream. Positions of inserted trials always use the
-/// seed's stream: a learning curve then has the same kinds of trial in all participants.
+/// Returns the trials of the block, in order. Conditions are shuffled with `own`, the participant's
+/// stream, if this is set, and otherwise with the seed's stream. Positions of inserted trials
+/// always use the seed's stream, so that all participants have the same kinds of trial at each
+/// point of a learning curve.
 std::vector<Trial> trials_of(const Task& task, const Block& block, int round, int number,
                              Random& random, std::optional<Random> own) {
     Trial trial;
@@ -195,7 +198,7 @@ std::vector<Trial> trials_of(const Task& task, const Block& block, int round, in
         deal_conditions(conditions, block.order, number, from, dealt);
         return dealt;
     };
-    std::vector<Trial> out = deal(random);  // even if `own` is used, to advance `random`
+    std::vector<Trial> out = deal(random);  // needed even if `own` is used, to advance `random`
     if (own) out = deal(*own);
     for (size_t i = 0; i < out.size() && block.ramp > 0; ++i)
         out[i].share = std::min(1.0, static_cast<double>(i + 1) / block.ramp);
@@ -204,15 +207,15 @@ std::vector<Trial> trials_of(const Task& task, const Block& block, int round, in
     return out;
 }
 
-/// Content of a cell in the column `perturbation`.
+/// Returns the contents of a cell in the column `perturbation`.
 std::string perturbations_cell(const Task& task, const std::vector<int>& perturb) {
     std::vector<std::string> names;
     for (const int i : perturb) names.push_back(task.perturbations[static_cast<size_t>(i)].name);
     return fmt::format("{}", fmt::join(names, kBetweenNames));
 }
 
-/// The perturbations in a cell of the column `perturbation`; -1 for an unknown name. A name can
-/// itself contain " + ".
+/// Returns the indices of the perturbations in a cell of the column `perturbation`, with -1 for an
+/// unknown name. The name of a perturbation may itself contain " + ".
 std::vector<int> read_perturbations(const Index& perturbations, const std::string& cell) {
     if (const int one = perturbations(cell); one >= 0) return {one};
     std::vector<int> out;
@@ -234,7 +237,7 @@ void draw_for(std::vector<Trial>& trials, const Task& task, int number, uint64_t
     }
 }
 
-/// Adds the cells of own_columns().
+/// Appends the cells for own_columns().
 void add_own_cells(const Task& task, const std::vector<Factor>& factors, const Trial& trial,
                    std::vector<Table::Cell>& row) {
     for (const Factor& factor : factors) {
@@ -258,8 +261,8 @@ void add_own_cells(const Task& task, const std::vector<Factor>& factors, const T
     }
 }
 
-/// The values of the draws in a row of a list. Throws bad(column) if the draw cannot have the
-/// value.
+/// Reads the values of the draws from a row of a list. Throws bad(column) if the draw cannot have
+/// the value.
 template <class Bad>
 std::vector<double> read_draws(const Task& task, const std::vector<std::string>& header,
                                const std::vector<std::string>& row, const Bad& bad) {
@@ -319,7 +322,7 @@ bool needs_number(const Task& task) {
 }
 
 std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
-    // participants are counted from 1: the first one gets the first row
+    // participants are counted from 1, so the first participant gets row 0
     const int row = std::max(0, number - 1);
     Random rounds_random(seed, stream_of("rounds", number));
     std::vector<Trial> out;
@@ -327,7 +330,8 @@ std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
     const auto add = [&](int round, Once once) {
         for (size_t b = 0; b < task.blocks.size(); ++b) {
             if (task.blocks[b].once != once) continue;
-            // each block has its own random stream: a change to one does not affect the others
+            // each block has its own random stream, so that changing one block does not affect the
+            // others
             const std::string stream = fmt::format("trials of block {} in round {}", b, round);
             Random random(seed, stream);
             std::optional<Random> own;
@@ -380,7 +384,7 @@ Table trial_list(const Task& task, const std::vector<Trial>& trials) {
     return table;
 }
 
-/// The numbers in a row of a frozen list.
+/// Reads the numbers in a row of a frozen list.
 template <class Bad>
 void read_numbers(Trial& trial, const std::vector<std::string>& row, const Bad& bad) {
     const auto number = whole_number<int>(row[1]);

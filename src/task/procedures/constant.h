@@ -12,18 +12,19 @@ namespace dihaptic::task {
 
 class Constant {
   public:
-    /// `trials`: number of trials after which the procedure ends; the last round may be incomplete.
-    /// Throws Error if there is no level, or if one is not a number or is repeated.
+    /// `trials` is the number of trials after which the procedure ends; the last round may be
+    /// incomplete. Throws Error if there are no levels, or if a level is not a number or is
+    /// repeated.
     Constant(const std::vector<double>& levels, int trials, Random& random);
 
     double level() const { return levels_[std::min(answered_, levels_.size() - 1)]; }
     void answer(double /*level*/, bool /*yes*/) { ++answered_; }
     bool done() const { return answered_ >= levels_.size(); }
-    /// No estimate: it would require a fit to the answers.
+    /// Returns no estimate, since this would require a fit to the answers.
     Estimate estimate() const { return {}; }
 
   private:
-    std::vector<double> levels_;  // by trial
+    std::vector<double> levels_;  // level of each trial
     size_t answered_ = 0;
 };
 

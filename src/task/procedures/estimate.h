@@ -1,14 +1,14 @@
-// The estimate of a threshold that a procedure makes from the answers so far.
+// A procedure's estimate of a threshold from the answers so far.
 #pragma once
 
 #include <limits>
 
 namespace dihaptic::task {
 
-/// Values in the unit of the level; NaN if unknown.
+/// An estimate in the unit of the level. Values are NaN if unknown.
 struct Estimate {
     double threshold = std::numeric_limits<double>::quiet_NaN();
-    /// Ends of the 95 % interval.
+    /// Lower and upper ends of the 95 % interval.
     double low = std::numeric_limits<double>::quiet_NaN();
     double high = std::numeric_limits<double>::quiet_NaN();
 };

@@ -1,4 +1,4 @@
-// Functions on probabilities over a grid of values.
+// Functions of probabilities on a grid of values.
 #pragma once
 
 #include <algorithm>
@@ -7,23 +7,24 @@
 
 namespace dihaptic::task {
 
-/// Divides all values by their sum, which must be above 0.
+/// Divides all values by their sum, which must be positive.
 void normalise(std::vector<double>& probabilities);
 
-/// Lower limit of likelihoods, so that an answer that is impossible on a grid without lapses does
-/// not make the posterior 0 everywhere.
+/// Lower limit on likelihoods. It prevents an answer that is impossible on a grid without lapses
+/// from making the posterior 0 everywhere.
 inline constexpr double kLeastLikely = 1e-12;
 
-/// Likelihood of an answer if "yes" has this probability.
+/// Returns the likelihood of an answer, given the probability of "yes".
 inline double likelihood(double probability_of_yes, bool yes) {
     return std::max(yes ? probability_of_yes : 1 - probability_of_yes, kLeastLikely);
 }
 
-/// Mean of the values with these probabilities.
+/// Returns the mean of values that have these probabilities.
 double mean(std::span<const double> values, std::span<const double> probabilities);
 
-/// Value at which the cumulative probability, interpolated linearly between the ascending values,
-/// reaches `share`; the first value if it reaches `share` there.
+/// Returns the value at which the cumulative probability, interpolated linearly between the
+/// ascending values, reaches `share`. If it already reaches `share` at the first value, returns
+/// that value.
 double quantile(std::span<const double> values, std::span<const double> probabilities,
                 double share);
 

@@ -18,11 +18,11 @@ class Procedure {
 
     Procedure(Kind kind) : kind_(std::move(kind)) {}
 
-    /// Level proposed for the next trial.
+    /// Returns the level proposed for the next trial.
     double level() const;
-    /// Processes the answer in a trial at this level (usually the proposed one). `yes`: the answer
-    /// was "yes" or correct, the one whose probability grows with the level. Throws Error if the
-    /// level is not finite or the procedure is done.
+    /// Processes the answer in a trial at this level, which is usually the proposed one. `yes`
+    /// means that the answer was "yes" or correct, i.e. the one whose probability increases with
+    /// the level. Throws Error if the level is not finite or the procedure is done.
     void answer(double level, bool yes);
     bool done() const;
     Estimate estimate() const;

@@ -10,14 +10,15 @@
 namespace dihaptic::task {
 namespace {
 
-/// The psychometric function of levels relative to the Weibull function's own threshold.
+/// Returns the psychometric function of the level relative to the threshold of the Weibull
+/// function.
 model::Psychometric weibull(const QuestSettings& s) {
     return {model::Sigmoid::weibull_log10, 0, s.slope, s.guess, s.blind * (1 - s.guess)};
 }
 
-/// The psychometric function of levels relative to the level with probability `target`. That level
-/// is interpolated linearly between grains, as in the original, so that runs agree with other
-/// programs to the last printed digit.
+/// Returns the psychometric function of the level relative to the level at which the probability is
+/// `target`. The latter is interpolated linearly between grains, as in the original, so that runs
+/// agree with other programs to the last printed digit.
 model::Psychometric about_target(const QuestSettings& s) {
     model::Psychometric f = weibull(s);
     double x = -s.cells * s.grain, p = f.probability(x);
@@ -60,9 +61,9 @@ void check(const QuestSettings& s) {
                     "give more cells, or a coarser grain");
 }
 
-/// The quantile of the posterior at which a trial is most informative, given the lower and upper
-/// ends of the psychometric function (Pelli 1987): there, the two-outcome channel of these ends
-/// reaches its capacity.
+/// Returns the quantile of the posterior at which a trial is most informative, given the lower and
+/// upper ends of the psychometric function (Pelli 1987). At this quantile, the two-outcome channel
+/// with these ends reaches its capacity.
 double most_informative_quantile(double low, double high) {
     const auto entropy = [](double p) {
         const auto part = [](double q) { return q > 0 ? -q * std::log(q) : 0.0; };

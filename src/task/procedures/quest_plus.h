@@ -4,8 +4,8 @@
 //
 //     E[H | x] = H - I(x),    I(x) = h(sum_i w_i p_i(x)) - sum_i w_i h(p_i(x))
 //
-// with w the posterior, p_i the probability of "yes" for the parameters i, H = -sum w ln w, and
-// h(p) = -p ln p - (1 - p) ln(1 - p).
+// where w is the posterior, p_i is the probability of "yes" for the parameters i, H = -sum w ln w,
+// and h(p) = -p ln p - (1 - p) ln(1 - p).
 #pragma once
 
 #include <cstddef>
@@ -19,35 +19,38 @@ namespace dihaptic::task {
 struct QuestPlusSettings {
     model::Sigmoid sigmoid = model::Sigmoid::weibull_log10;
     std::vector<double> levels;      ///< levels that may be presented
-    std::vector<double> thresholds;  ///< ascending, like all grids
-    std::vector<double> shapes;      ///< e.g. {2, 3, 4, 5}; a single value for a known shape
+    std::vector<double> thresholds;  ///< grid of thresholds, ascending like all grids
+    /// Grid of shapes, e.g. {2, 3, 4, 5}, or a single value if the shape is known.
+    std::vector<double> shapes;
     std::vector<double> lapses = {0.02};
     double guess = 0.5;
-    /// Uses the lapse rate as the guess rate instead: for "more or less?" or "left or right?",
-    /// where the function goes from 0 to 1 apart from lapses.
+    /// Whether the lapse rate is used as the guess rate instead. This is for questions such as
+    /// "more or less?" or "left or right?", for which the function goes from 0 to 1 apart from
+    /// lapses.
     bool guess_is_lapse = false;
     int trials = 40;  ///< number of trials after which the procedure ends
 };
 
 class QuestPlus {
   public:
-    /// The prior is uniform on the grid. Throws Error if a setting is out of range.
+    /// Starts with a uniform prior on the grid. Throws Error if a setting is out of range.
     explicit QuestPlus(QuestPlusSettings settings);
 
     double level() const { return level_; }
     void answer(double level, bool yes);
     bool done() const { return trials_ >= settings_.trials; }
-    /// Mean of the threshold's posterior, and its quantiles.
+    /// Returns the mean of the threshold's posterior and the quantiles that bound the interval.
     Estimate estimate() const;
 
-    /// Most probable point of the grid, and mean of each parameter.
+    /// mode() returns the most probable point of the grid; mean() returns the mean of each
+    /// parameter.
     model::Psychometric mode() const;
     model::Psychometric mean() const;
-    /// Expected entropy of the posterior after a trial at levels[i] [nat].
+    /// Returns the entropy of the posterior that is expected after a trial at levels[i] [nat].
     double expected_entropy(size_t i) const;
 
     const QuestPlusSettings& settings() const { return settings_; }
-    /// Posterior by threshold, then shape, then lapse; the last index changes fastest.
+    /// Posterior indexed by threshold, shape and lapse rate; the last index changes fastest.
     const std::vector<double>& posterior() const { return posterior_; }
 
   private:
@@ -64,7 +67,7 @@ class QuestPlus {
     double level_ = 0;
     int trials_ = 0;
     std::vector<double> posterior_;
-    std::vector<double> yes_;      // p_i(x), by level, then parameters
+    std::vector<double> yes_;      // p_i(x), indexed by level, then by parameters
     std::vector<double> entropy_;  // h(p_i(x))
 };
 

@@ -50,7 +50,7 @@ double down_over_up_for(int down_after, double probability) {
 Staircase::Staircase(StaircaseSettings settings)
     : settings_(std::move(settings)), level_(settings_.start) {
     check(settings_);
-    // answers are processed in the tick, where allocation is forbidden
+    // answers are processed during a tick, where allocation is forbidden
     reversals_.reserve(static_cast<size_t>(std::max(settings_.trials, settings_.reversals)));
 }
 
@@ -70,7 +70,7 @@ void Staircase::move(double level, int direction) {
     const size_t step = std::min(reversals_.size(), settings_.steps_up.size() - 1);
     const double up = settings_.steps_up[step];
     level_ += direction > 0 ? up : -up * settings_.down_over_up;
-    // rounded so that a level that recurs is the same number: 0.8 - 4 x 0.2 is not exactly 0
+    // rounded so that a recurring level is always the same number: 0.8 - 4 x 0.2 is not exactly 0
     level_ = std::round(level_ * 1e9) / 1e9;
     level_ = std::clamp(level_, settings_.lowest, settings_.highest);
 }

@@ -1,5 +1,5 @@
-// A participant's answers to the questions of a state, in the tick. Nothing here allocates or
-// throws.
+// A participant's answers to the questions of a state, as processed in each tick. Nothing here
+// allocates or throws.
 #pragma once
 
 #include <array>
@@ -11,16 +11,19 @@
 
 namespace dihaptic::task {
 
-/// The largest number of keys that wait until a tick reads them; further ones are refused. A window
-/// that draws slowly passes several keys on at once.
+/// Maximum number of keys that can wait until a tick reads them; further keys are refused. A window
+/// that draws slowly may pass on several keys at once.
 constexpr size_t kMostKeys = 64;
 
-/// A click on a question's line.
+/// A click on the line of a question.
 struct Click {
-    int32_t item = -1;  ///< index of the question; number of questions: "done"; -1: no click
-    int32_t place = 0;  ///< in millionths of the line's length, from its left end
+    /// Index of the question; the number of questions stands for "done", -1 for no click.
+    int32_t item = -1;
+    /// Distance from the left end of the line, in millionths of the line's length.
+    int32_t place = 0;
 
-    /// `share`: position as a share of the line's length, from 0 to 1.
+    /// Makes a click. `share` is the position on the line as a share of the line's length, from 0
+    /// to 1.
     static Click at(size_t item, double share) noexcept {
         return {static_cast<int32_t>(item), static_cast<int32_t>(std::lround(share * kPlaces))};
     }
@@ -32,22 +35,22 @@ struct Click {
 
 class Answering {
   public:
-    /// Begins the questions of a state, all of them unanswered.
+    /// Starts the questions of a state, all of them unanswered.
     void begin(const TaskPlan::Questions& questions) noexcept;
     void press(char key) noexcept;
     void click(const Click& click) noexcept;
     /// Uses the hand's position on the line from `from_W` to `to_W` as the answer.
     void point(const Vec3& p_W, const Vec3& from_W, const Vec3& to_W) noexcept;
 
-    /// The messages of the current question.
+    /// Messages shown for the current question.
     std::span<const int> lines() const noexcept;
-    /// Whether the only question is answered, or the form is confirmed.
+    /// Whether the only question has been answered, or the form has been confirmed.
     bool answered() const noexcept;
-    /// Index of the question being asked; the number of questions, once all are answered.
+    /// Index of the question being asked, or the number of questions once all have been answered.
     size_t item() const noexcept { return item_; }
-    /// The answer to a question, in the unit of the answer's name; NaN until it is given.
+    /// Answer to a question, in the unit of the answer's name; NaN until it is given.
     double answer(size_t item) const noexcept { return answers_[item]; }
-    /// The number typed so far, or the answer.
+    /// The number typed so far or, once it is given, the answer.
     double shown() const noexcept { return rating_.shown(); }
 
   private:
@@ -62,7 +65,8 @@ class Answering {
     std::array<bool, frame::TaskFrame::kMostVariables> given_{};
     size_t item_ = 0;
     bool confirmed_ = false;
-    bool ended_itself_ = false;  // the last key completed a number, so that Enter is superfluous
+    // whether the last key completed a number, which makes Enter superfluous
+    bool ended_itself_ = false;
 };
 
 }  // namespace dihaptic::task

@@ -1,5 +1,5 @@
-// Tests whether fingers are clear of bodies, with the box around each body and the sphere around
-// each finger: accurate enough to decide whether a body can be placed.
+// Tests whether fingers are clear of bodies, using the box around each body and the sphere around
+// each finger. This is accurate enough to decide whether a body can be placed.
 #pragma once
 
 #include "frame/frame.h"
@@ -9,12 +9,12 @@ namespace dihaptic::task {
 
 constexpr double kClearance = 2e-3;  // [m]
 
-/// Radius of a sphere that contains a finger's shape in any orientation [m].
+/// Returns the radius of a sphere that contains a finger's shape in any orientation [m].
 inline double reach_of(const scene::Finger& finger) {
     return scene::extent(finger.shape) * std::sqrt(3.0) / 2;
 }
 
-/// Whether a sphere at p_W with this radius [m] obstructs a body with this box.
+/// Whether a sphere at p_W with the given radius [m] overlaps the box of a body.
 inline bool in_the_way(const Pose& X_WB, const scene::Bounds& box, const Vec3& p_W,
                        double radius) noexcept {
     const Vec3 p_B = X_WB.inverse() * p_W;
@@ -23,7 +23,7 @@ inline bool in_the_way(const Pose& X_WB, const scene::Bounds& box, const Vec3& p
            (p_B.array() < box.high.array() + margin).all();
 }
 
-/// The boxes of a scene's bodies and the spheres of its fingers, precomputed for use in the tick.
+/// The boxes of a scene's bodies and the spheres of its fingers, precomputed for use in each tick.
 class Clearance {
   public:
     Clearance() = default;
@@ -47,7 +47,7 @@ class Clearance {
 
   private:
     std::vector<scene::Bounds> boxes_;
-    std::vector<double> radius_;  // by finger [m]
+    std::vector<double> radius_;  // radius of the sphere of each finger [m]
 };
 
 }  // namespace dihaptic::task

@@ -8,9 +8,9 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr double kShake = 1.0 / 60;  // interval between draws of the noise: one screen frame [s]
+constexpr double kShake = 1.0 / 60;  // interval at which noise is drawn anew: one screen frame [s]
 
-/// Number of rows in the ring buffer, from the longest delay.
+/// Returns the number of rows of the ring buffer that the longest delay requires.
 size_t rows_of(const TaskPlan& plan, double tick) {
     double longest = 0;
     for (const TaskPlan::Cell& cell : plan.cells) {
@@ -20,7 +20,7 @@ size_t rows_of(const TaskPlan& plan, double tick) {
     return static_cast<size_t>(std::max(1L, std::lround(longest / tick)));
 }
 
-/// Merges looks into the existing ones, which they override.
+/// Merges looks into the existing ones. The new looks override existing looks of the same thing.
 void put_on(const std::vector<frame::LookFrame>& looks, frame::TaskFrame& out) noexcept {
     for (const frame::LookFrame& look : looks) {
         const auto there =
@@ -86,7 +86,7 @@ void Displayer::enter(int state, const TaskPlan::Looks& looks, bool new_trial) n
     if (planned.holds_cursor && planned.held_from >= 0 && has_ended_[from] != 0) {
         for (size_t i = 0; i < fingers_; ++i) held_[i] = ended_[from * fingers_ + i];
     } else if (planned.holds_cursor && (new_trial || !holds_)) {
-        // a cursor that is held in two consecutive states keeps its position
+        // if two consecutive states hold the cursor, it keeps its position
         for (size_t i = 0; i < fingers_; ++i) held_[i] = past(i, 1);
     }
     holds_ = planned.holds_cursor && seen_ > 0;
@@ -129,8 +129,8 @@ void Displayer::order(double now, frame::TaskFrame& out) noexcept {
         add(out.displaced, {static_cast<int32_t>(bodies_ + i), held_[i]});
 }
 
-/// Objects with noise but no delay are shown one tick late: their poses in this tick are not known
-/// yet.
+/// Displaces the displayed objects. Objects with noise but no delay are shown one tick late,
+/// because their poses in this tick are not known yet.
 void Displayer::displace(const frame::VisualMap& map, frame::TaskFrame& out) const noexcept {
     const long ticks = std::lround(map.delay / tick_);
     const auto show = [&](size_t thing, size_t body) {

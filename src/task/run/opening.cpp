@@ -12,7 +12,8 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr double kTolerance = 1e-6;  // times are sums of ticks, with rounding errors [s]
+// tolerance for rounding errors, since times are sums of ticks [s]
+constexpr double kTolerance = 1e-6;
 
 constexpr int64_t kMostPicture = 200'000'000;  // [bytes]
 
@@ -70,7 +71,7 @@ bool Opening::over(const Trial& next, bool rests, char key, double now) noexcept
         block_ = next.block;
         at_ = rests && of_block().rest > 0 ? -1 : 0;
         since_ = now;
-        key = 0;  // a key pressed before the page was shown is ignored
+        key = 0;  // ignore a key pressed before the page was shown
     }
     if (at_ < 0) {
         if (rest_left(now) > kTolerance) return false;

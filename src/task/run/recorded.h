@@ -1,4 +1,4 @@
-// Values of expressions over recorded data, frame by frame.
+// Values of expressions over recorded data, computed frame by frame.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace dihaptic::task {
 
-/// The handles in a frame.
+/// Copies the handles in a frame to `out`.
 void handles_of(const frame::Frame& frame, std::vector<frame::Handle>& out);
 
-/// An expression over a recording without its task: names that a task defines (regions, variables,
-/// times in a state) are unknown.
+/// An expression over a recording whose task is not known: names that a task defines (regions,
+/// variables, times in a state) are errors.
 class RecordedValue {
   public:
-    /// Mistakes go to `diagnostics`; the value is then 0.
+    /// Mistakes are added to `diagnostics`, and the value is then 0.
     RecordedValue(const std::string& text, const scene::Scene& scene, Diagnostics& diagnostics);
 
     double operator()(const frame::Frame& frame);
-    /// Unit of the value; lengths are in mm.
+    /// Unit of the value; mm for lengths.
     const std::string& unit() const { return unit_; }
 
   private:

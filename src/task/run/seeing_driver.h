@@ -1,5 +1,5 @@
-// Interface of a simulated hand that acts on its visual input: it receives each Frame before its
-// next movement.
+// Interface of a simulated hand that acts on visual input: it receives each Frame before its next
+// movement.
 #pragma once
 
 #include "frame/frame.h"
@@ -9,12 +9,13 @@ namespace dihaptic::task {
 
 class SeeingDriver : public hand::Driver {
   public:
-    /// Shows the hand the Frame of a tick. Runs in the tick: neither allocates nor throws. The
-    /// visible part of the Frame is given by frame/displayed.h.
+    /// Shows the hand the Frame of a tick. Called during a tick, so it does not allocate or throw.
+    /// frame/displayed.h gives the visible part of the Frame.
     void see(const frame::Frame& frame) noexcept { do_see(frame); }
-    /// The key that the hand has pressed since the last call; 0: none. Runs in the tick.
+    /// Returns the key that the hand has pressed since the last call, or 0 if there is none. Called
+    /// during a tick.
     char take_key() noexcept { return do_take_key(); }
-    /// Returns to the start, for a new run.
+    /// Returns the hand to its initial state, for a new run.
     virtual void restart() = 0;
 
   private:

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kAtStart = 1e-6;  // tolerance for a body at its start pose [m], [rad], [m/s]
 constexpr double kNever = -1;
-constexpr double kUnread = 0.2;  // time in which nobody can have read a form [s]
+// initial time during which a form ignores input, since nobody can have read it yet [s]
+constexpr double kUnread = 0.2;
 
 bool same_pose(const Pose& a, const Pose& b) noexcept {
     return (a.p - b.p).norm() < kAtStart && a.R.angularDistance(b.R) < kAtStart;
@@ -29,12 +30,13 @@ bool pressed(const frame::Frame& last, int body) noexcept {
         });
 }
 
-/// Rounds a time to nanoseconds, since sums of ticks have rounding errors.
+/// Rounds a time to nanoseconds, to remove the rounding errors of sums of ticks.
 double exact(double time) noexcept {
     return std::round(time * 1e9) / 1e9;
 }
 
-/// Pose of the body, or its placement in this tick.
+/// Returns the pose at which the body is placed in this tick or, if it is not placed, its pose in
+/// the last Frame.
 Pose pose_of(int body, const frame::Frame& last, const frame::Commands& commands) noexcept {
     for (const frame::PlacementFrame& placed : commands.task.placements) {
         if (placed.body == body) return placed.X_WB;
@@ -42,13 +44,14 @@ Pose pose_of(int body, const frame::Frame& last, const frame::Commands& commands
     return last.bodies[static_cast<size_t>(body)].X_WB;
 }
 
-/// The joint's coordinate.
+/// Returns the coordinate of the joint.
 double coordinate_of(int joint, const frame::Frame& last) noexcept {
     const frame::JointFrame& frame = last.joints[static_cast<size_t>(joint)];
     return std::isnan(frame.angle) ? frame.displacement : frame.angle;
 }
 
-/// The statistic of the values at the ends of the last trials; `sorted`: memory for sorting them.
+/// Returns the statistic of the values at the ends of the last trials. `sorted` is memory for
+/// sorting these values.
 double statistic_of(LookBack::Statistic statistic, const std::vector<double>& x,
                     std::vector<double>& sorted) noexcept {
     if (x.empty()) return kUnmeasured;
@@ -129,7 +132,7 @@ void TaskDirector::operator()(const frame::Frame& last, std::span<const frame::H
     const double now = last.sequence < 0 ? 0 : seconds(last.time) + tick_;
     motions_.add(last, handles);
     displayer_.see(last);
-    // quantities appear in texts between trials too
+    // the quantities are updated between trials too, since texts use them
     const std::span<const double> values = numbers_.quantities().values();
     if (!taken_.empty()) std::ranges::copy(values, in_frame_.begin());
     numbers_.quantities().update(last, handles);
@@ -144,7 +147,7 @@ void TaskDirector::operator()(const frame::Frame& last, std::span<const frame::H
 void TaskDirector::direct(const frame::Frame& last, std::span<const frame::Handle> handles,
                           double now, frame::Commands& commands) noexcept {
     if (now >= feedback_until_ && next_message_ >= 0) message_ = std::exchange(next_message_, -1);
-    // read in every tick, so that input between trials does not affect a trial
+    // input is read in every tick, so that input between trials does not affect the next trial
     const Input input{keys_.pop().value_or(0), trigger_.exchange(0, std::memory_order_relaxed),
                       clicked_.exchange(Click{}, std::memory_order_relaxed)};
     if (queue_.empty()) {
@@ -240,7 +243,7 @@ void TaskDirector::follow(const Decision& decision, double now) noexcept {
         if (std::isfinite(decision.variables[i])) variables_[i].value = decision.variables[i];
     }
     if (const int next = decision.next - 1; next >= 0) {
-        // pages and breaks precede a block, so that a trial of another block cannot be next
+        // pages and breaks precede a block, so the next trial must be in the current block
         const bool here = plan_.trials[static_cast<size_t>(next)].number == trial().number;
         if (!here || !queue_.go_to(next, 1)) between_->note_refused();
     }
@@ -260,8 +263,8 @@ bool TaskDirector::clear(const frame::Frame& last) noexcept {
                        });
 }
 
-/// Whether a body can be placed at X_WB. A body placed onto a finger would push the finger out; if
-/// a body between pressing fingers were removed, the fingers would collide.
+/// Whether a body can be placed at X_WB. If it were placed onto a finger, it would push the finger
+/// out; if it were removed from between fingers that press it, the fingers would collide.
 bool TaskDirector::clear(const frame::Frame& last, const TaskPlan::StartPose& start_pose,
                          const Pose& X_WB) noexcept {
     if (last.sequence < 0) return true;
@@ -277,7 +280,8 @@ bool TaskDirector::clear(const frame::Frame& last, const TaskPlan::StartPose& st
     return true;
 }
 
-/// Orders the placement of the body in this tick, and overrides earlier orders for it.
+/// Adds the placement of the body in this tick to the commands, replacing any earlier placement of
+/// this body.
 void TaskDirector::put(int body, const Pose& X_WB, const BodyMotion& motion,
                        frame::Commands& commands) noexcept {
     std::vector<frame::PlacementFrame>& list = commands.task.placements;
@@ -302,7 +306,7 @@ void TaskDirector::enter(int state, double now, frame::Commands& commands) noexc
     sounder_.enter(plan_.states[static_cast<size_t>(state)]);
     state_ = state;
     entered_ = now;
-    numbers_.quantities().set(Quantities::kTimeInState, 0);  // drives use this value in this tick
+    numbers_.quantities().set(Quantities::kTimeInState, 0);  // drives use the time in this tick
     answering_.begin(plan_.states[static_cast<size_t>(state)].questions);
     std::fill(judged_.begin(), judged_.end(), Judged{});
     std::fill(is_put_.begin(), is_put_.end(), 0);
@@ -322,7 +326,7 @@ const TaskPlan::Transition* TaskDirector::transition_taken(const frame::Frame& l
     quantities.set(Quantities::kTimeInTrial, exact(now - trial_began_));
     for (size_t i = 0; i < transitions.size(); ++i) {
         const TaskPlan::Transition& transition = transitions[i];
-        // half a tick of tolerance, because sums of ticks have rounding errors
+        // half a tick of tolerance allows for rounding errors in sums of ticks
         if (transition.exit.when == When::time) {
             if (now - entered_ >= numbers_.of(transition.exit.hold) - tick_ / 2) return &transition;
             continue;
@@ -366,7 +370,7 @@ void TaskDirector::finish(int outcome, bool redo, double now, frame::Commands& c
     last_trial_ = queue_.trial() + 1;
     last_attempt_ = queue_.attempt();
     commands.trial = last_trial_;
-    // a trial that is skipped before its start has a single frame, in its first state
+    // a trial that is skipped before it starts has a single frame, in its first state
     commands.phase = std::max(state_, 0) + 1;
     commands.task.attempt = last_attempt_;
     commands.task.outcome = outcome;
@@ -384,8 +388,8 @@ void TaskDirector::finish(int outcome, bool redo, double now, frame::Commands& c
     commands.stop = queue_.empty() && now >= feedback_until_;
 }
 
-/// After the last trial, the session continues until the feedback has been shown. A session that
-/// was already complete when resumed ends immediately.
+/// Gives the commands after the last trial. The session continues until the feedback has been
+/// shown, but a session that was already complete when resumed ends immediately.
 void TaskDirector::order_end(double now, frame::Commands& commands) const noexcept {
     commands.stop = now >= feedback_until_;
     commands.trial = last_trial_;
@@ -432,7 +436,7 @@ void TaskDirector::say(int message, double now, frame::TaskFrame& out) const noe
 }
 
 double TaskDirector::value_of(Figure figure, double now) const noexcept {
-    // between trials, texts refer to the last trial, and pages to the next one
+    // between trials, texts refer to the last trial, whereas pages refer to the next trial
     const bool ended = state_ < 0 && !opening_.on() && last_trial_ > 0;
     if (queue_.empty() && !ended) return kUnmeasured;
     const int number = ended ? last_trial_ : queue_.trial() + 1;
@@ -459,7 +463,8 @@ double TaskDirector::value_of(Figure figure, double now) const noexcept {
     }
 }
 
-/// Uses half a tick of tolerance, because sums of ticks have rounding errors.
+/// Returns the seconds left in a break or a state. Half a tick of tolerance allows for rounding
+/// errors in sums of ticks.
 double TaskDirector::countdown(double now) const noexcept {
     const double rest = opening_.rest_left(now);
     if (rest >= 0) return std::ceil(rest - tick_ / 2);
@@ -483,8 +488,8 @@ bool TaskDirector::is_done() noexcept {
     return trial().procedure >= 0 && procedures_[static_cast<size_t>(trial().procedure)].done();
 }
 
-/// Unlike exits, which see the present handles, measures see only the last Frame, as the columns of
-/// the same names do.
+/// Adds values to the measures that rules use. Exits use the handles of the current tick, but
+/// measures use only the last Frame, as do the columns with the same names.
 void TaskDirector::take_measures(const frame::Frame& last) noexcept {
     handles_of(last, frame_handles_);
     numbers_.quantities().read_frame(last, frame_handles_, in_frame_);
@@ -494,8 +499,8 @@ void TaskDirector::take_measures(const frame::Frame& last) noexcept {
     }
 }
 
-/// Sets some of the statistics over earlier trials that rules use. `counts`: whether they include
-/// the ended attempt.
+/// Sets a range of the statistics over earlier trials that rules use. `counts` tells whether these
+/// statistics include the attempt that has just ended.
 void TaskDirector::look_back(size_t from, size_t to, bool counts) noexcept {
     Quantities& quantities = numbers_.quantities();
     for (size_t i = from; i < to; ++i) {
@@ -518,7 +523,7 @@ void TaskDirector::look_back(size_t from, size_t to, bool counts) noexcept {
 }
 
 void TaskDirector::follow_rules(int outcome, bool redo) noexcept {
-    // a trial that is skipped before its start also has numbers
+    // rules need the trial's numbers even if the trial is skipped before it starts
     if (!begun_) resolve();
     Quantities& quantities = numbers_.quantities();
     quantities.set(plan_.symbols.outcome, plan_.symbols.outcomes[static_cast<size_t>(outcome)]);
@@ -530,7 +535,7 @@ void TaskDirector::follow_rules(int outcome, bool redo) noexcept {
         redo && plan_.task.redo != Redo::never && last_attempt_ < plan_.task.most_attempts;
     size_t looked = 0;
     for (const TaskPlan::Change& change : plan_.changes) {
-        // the statistics of a rule include what earlier rules have set in this trial
+        // the statistics in a rule include the values that earlier rules have set in this trial
         look_back(std::exchange(looked, change.look_backs), change.look_backs, !again);
         if (change.when && (*change.when)(quantities.values()) == 0) continue;
         const double value = change.to.value(quantities.values());
@@ -547,7 +552,7 @@ void TaskDirector::take_answers(std::span<const frame::Handle> handles, const In
     if (questions.items.empty()) return;
     const Question& first = questions.items.front().question;
     if (questions.is_form && now - entered_ < kUnread) {
-        // what is typed belongs to the previous page
+        // ignored, because these keys were meant for the previous page
     } else if (first.by != AnswerBy::cursor) {
         answering_.press(input.key);
         answering_.click(input.clicked);
@@ -580,7 +585,7 @@ void TaskDirector::resolve() noexcept {
     numbers_.begin(queue_.trial(), queue_.attempt(), variables_, 0);
 }
 
-/// The level that the trial's procedure chose, limited to its range.
+/// Returns the level that the trial's procedure has chosen, limited to the range of the procedure.
 double TaskDirector::level() const noexcept {
     const auto i = static_cast<size_t>(trial().procedure);
     const ProcedureSpec& spec = plan_.task.procedures[i];
@@ -593,8 +598,8 @@ double TaskDirector::share_of_trial() const noexcept {
     return plan_.task.procedures[static_cast<size_t>(trial().procedure)].share(level());
 }
 
-/// Passes the outcome of the ending trial to its procedure. An outcome that is neither the
-/// procedure's 'yes' nor its 'no' is not an answer.
+/// Passes the outcome of the trial that ends to the trial's procedure. An outcome that is neither
+/// 'yes' nor 'no' of the procedure is not an answer.
 void TaskDirector::take_answer(int outcome) noexcept {
     if (trial().procedure < 0) return;
     const auto i = static_cast<size_t>(trial().procedure);
@@ -603,8 +608,8 @@ void TaskDirector::take_answer(int outcome) noexcept {
     if (yes || name == plan_.task.procedures[i].no) procedures_[i].answer(level(), yes);
 }
 
-/// Places the state's bodies, each as soon as no finger presses or obstructs it, and keeps held
-/// bodies in place.
+/// Places each of the state's bodies as soon as no finger presses or obstructs the body, and keeps
+/// held bodies in place.
 void TaskDirector::put_bodies(const frame::Frame& last, frame::Commands& commands) noexcept {
     if (state_ < 0) return;
     const auto& placements = plan_.states[static_cast<size_t>(state_)].placements;
@@ -614,7 +619,7 @@ void TaskDirector::put_bodies(const frame::Frame& last, frame::Commands& command
         if (is_put_[i] && !wanted.stays) continue;
         if (!is_put_[i]) {
             const Pose X_WB{wanted.pose.X_WB.R, numbers_.of(wanted.pose.position)};
-            // before the first Frame, the positions of fingers are unknown
+            // before the first Frame, the positions of the fingers are not known
             if (wanted.moves && (last.sequence < 0 || !clear(last, wanted.pose, X_WB))) continue;
             is_put_[i] = 1;
             put_at_[i] = wanted.moves ? X_WB : pose_of(body, last, commands);
@@ -623,8 +628,8 @@ void TaskDirector::put_bodies(const frame::Frame& last, frame::Commands& command
     }
 }
 
-/// Orders the targets of the state's drives and motors for the end of the tick, each relative to
-/// its body or joint at the beginning of the state.
+/// Commands where the state's drives and motors should be at the end of the tick, relative to where
+/// their bodies and joints were at the beginning of the state.
 void TaskDirector::drive_bodies(const frame::Frame& last, double now,
                                 frame::Commands& commands) noexcept {
     if (state_ < 0 || last.sequence < 0) return;
@@ -665,8 +670,8 @@ void TaskDirector::order(double now, frame::Commands& commands) const noexcept {
         const auto i = static_cast<size_t>(p);
         if (!cell.acts(p, state_)) continue;
         const double part = cell.perturbations[i].share_at(now - began_[i]);
-        if (part == 0) continue;  // the perturbation's profile has not started or is over
-        // the trial's share, without the profile, whose effect is visible in the orders
+        if (part == 0) continue;  // the perturbation's profile has not started or is already over
+        // share in the trial, without the profile, whose effect is visible in the commands
         const double share = share_of_trial();
         if (share == 0 && plan_.shows_standard(trial(), state_)) continue;
         out.share = share;

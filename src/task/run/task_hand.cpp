@@ -51,7 +51,7 @@ void TaskHand::do_see(const frame::Frame& frame) noexcept {
     const double now = seconds(frame.time);
     if (frame.phase != kBetween)
         numbers_.follow(frame.trial, frame.task.attempt, frame.task.variables, frame.phase - 1);
-    // between trials the hand still completes the steps that it has started
+    // between trials, the hand still completes the steps that it has already started
     const bool between = frame.phase == kBetween || frame.trial < 1;
     const bool entered = !between && (frame.trial != trial_ || frame.phase != phase_ ||
                                       frame.task.attempt != attempt_);

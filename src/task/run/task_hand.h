@@ -1,5 +1,6 @@
-// The simulated hands that an experiment file describes for its task: on entry into a state they
-// start that state's steps from their current position, by minimum jerk as in a script.
+// The simulated hands that an experiment file describes for its task. On entry into a state, they
+// start the steps of that state from their current position, with minimum-jerk motion as in a
+// script.
 #pragma once
 
 #include <memory>
@@ -11,7 +12,7 @@ namespace dihaptic::task {
 
 class TaskHand final : public SeeingDriver {
   public:
-    /// Throws Error if the fingers in the spec differ from `fingers`.
+    /// Throws Error if the fingers in the spec are not the same as `fingers`.
     TaskHand(std::shared_ptr<const TaskPlan> plan, const hand::HandSpec& spec,
              const std::vector<std::string>& fingers);
 
@@ -24,7 +25,7 @@ class TaskHand final : public SeeingDriver {
     void do_see(const frame::Frame& frame) noexcept override;
     void begin_step(double now) noexcept;
 
-    /// Posture of a finger's hand within its step.
+    /// The hand posture of a finger during its step.
     struct Posture {
         Vec3 centre = Vec3::Zero();
         double aperture = 0;
@@ -34,7 +35,8 @@ class TaskHand final : public SeeingDriver {
     std::shared_ptr<const TaskPlan> plan_;
     TrialNumbers numbers_;
     std::vector<hand::FingerPlace> places_;
-    std::vector<Posture> start_;  // by finger, like the following members
+    // start of each finger's step; the following members are also by finger
+    std::vector<Posture> start_;
     std::vector<Phase> phases_;
     int trial_ = 0;
     int attempt_ = 0;

@@ -15,7 +15,7 @@ double within(const Field& field, double value) noexcept {
     return std::isnan(value) ? least : std::clamp(value, least, field.max);
 }
 
-/// Stores the value of the formula in the trial, and reports a value outside its bounds.
+/// Stores the formula's value in the trial, and reports a value that is out of bounds.
 void look_at(int index, size_t trial, const TrialNumbers& numbers, TaskPlan& plan,
              std::vector<char>& told, Diagnostics& diagnostics) {
     const auto i = static_cast<size_t>(index);
@@ -112,7 +112,7 @@ void TrialNumbers::begin(int trial, int attempt, std::span<const frame::Variable
     }
     cell_ = plan_.cell_index(now);
     TaskPlan::Cell& cell = cells_[cell_];
-    // a value that is not known yet is detected when all trials are resolved before the session
+    // values that are not known yet are detected when all trials are resolved before the session
     for (size_t i = 0; i < cell.p_W.size(); ++i)
         quantities_.set(quantities_.region(i), Vec3::Constant(kUnmeasured));
     for (const TaskPlan::StartPose& start_pose : cell.start_poses)

@@ -1,5 +1,5 @@
-// Measures how often the report's interval contains the threshold of observers with known
-// psychometric functions, in a two-interval discrimination, for each kind of procedure.
+// Measures how often the interval in the report contains the threshold of observers with known
+// psychometric functions in a two-interval discrimination task, for each kind of procedure.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -13,12 +13,13 @@ struct Case {
     const char* name;
     const char* procedure;
     model::Psychometric observer;
-    /// Whether the observer matches the procedure's assumptions: if not, intervals may be too wide.
+    /// Whether the observer matches the procedure's assumptions. If not, intervals may be too wide.
     bool as_taken = true;
 };
 
 constexpr model::Psychometric kNormal{model::Sigmoid::normal, 0.35, 0.12, 0.5, 0};
-/// The function that QUEST assumes for the logarithm of the level, written for the level itself.
+/// The psychometric function that QUEST assumes for the logarithm of the level, expressed in terms
+/// of the level itself.
 constexpr model::Psychometric kWeibull{model::Sigmoid::weibull, 0.35, 3.5, 0.5, 0};
 constexpr model::Psychometric kFlat{model::Sigmoid::weibull, 0.35, 2.5, 0.5, 0};
 constexpr model::Psychometric kSteep{model::Sigmoid::weibull, 0.35, 5, 0.5, 0};

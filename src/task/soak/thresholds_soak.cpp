@@ -1,6 +1,6 @@
-// Measures the precision of the thresholds in experiments/visual-scaling.yaml: its staircases are
-// run on two hundred observers who judge a ratio of lengths with noise, and are fitted as in the
-// report. analysis/fits/README.md gives the results.
+// Measures the precision of the thresholds in experiments/visual-scaling.yaml. The staircases of
+// this experiment are run on two hundred observers who judge a ratio of lengths with noise, and
+// their answers are fitted as in the report. The results are in analysis/fits/README.md.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,18 +14,18 @@
 namespace dihaptic::task {
 namespace {
 
-/// An observer who answers "more" if the logarithm of the ratio plus noise is above 0, and
+/// An observer who answers "more" if the logarithm of the ratio plus noise is positive, and who
 /// sometimes lapses.
 struct Observer {
     double sd;
     static constexpr double kLapse = 0.015;
 
-    /// Probability of a correct answer when `scale` is shown with that share.
+    /// Probability of a correct answer when `scale` is shown with this share.
     double right(double scale, double share) const {
         const double ratio = std::abs(std::log(1 + share * (scale - 1)));
         return kLapse + (1 - 2 * kLapse) * 0.5 * std::erfc(-ratio / sd / std::sqrt(2.0));
     }
-    /// Share at which three of four answers would be correct without lapses.
+    /// Share at which three out of four answers would be correct if there were no lapses.
     double threshold(double scale) const {
         return std::abs(std::exp((scale > 1 ? 1 : -1) * 0.6744897501960817 * sd) - 1) /
                std::abs(scale - 1);
@@ -42,7 +42,8 @@ TEST(Thresholds, OfTwentyFiveAnswersAreRough) {
     double square = 0;
     int held = 0;
     for (int i = 0; i < kObservers; ++i) {
-        const Observer observer{0.12 * std::exp(0.25 * random.normal())};  // as in adults.yaml
+        // distributed as in adults.yaml
+        const Observer observer{0.12 * std::exp(0.25 * random.normal())};
         const ProcedureSpec& spec = experiment.task->procedures[static_cast<size_t>(i % 2)];
         const double scale = i % 2 == 0 ? 2 : 0.5;
         Procedure procedure = make_procedure(spec, 0);
@@ -68,7 +69,7 @@ TEST(Thresholds, OfTwentyFiveAnswersAreRough) {
     fmt::print(
         "bias {:.2f} and rms error {:.2f} of the threshold; intervals contain it in {:.2f}\n", bias,
         std::sqrt(square), coverage);
-    // the README calls the thresholds rough; if they improve, it must change
+    // the README describes the thresholds as rough; if they improve, it must be updated
     EXPECT_GT(std::sqrt(square), 0.5);
     EXPECT_LT(std::sqrt(square), 5);
     EXPECT_GT(coverage, 0.7);

@@ -1,5 +1,5 @@
-// Tests that every number in a file has two finite bounds, so that none can be added without them,
-// and that a value that overflows when its unit is converted is refused.
+// Tests that every number in a file has two finite bounds, so that no number can be added without
+// bounds, and that a value that overflows when its unit is converted is rejected.
 #include <gtest/gtest.h>
 
 #include "frame/settings.h"
@@ -42,7 +42,7 @@ TEST(Bounds, AreOfExperimentsTasksAndProcedures) {
     }
 }
 
-/// The problems found when a line of settings is read.
+/// Returns the problems found when a line of settings is read.
 std::string said_of(const std::string& line) {
     Diagnostics diagnostics;
     frame::Settings settings;

@@ -1,5 +1,5 @@
-// Tests the conditions of states: expressions, hands, bodies, counts, and the message for each
-// mistake in them.
+// Tests the conditions of states: expressions, hands, bodies, counts, and the error message for
+// each mistake in a condition.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -14,11 +14,11 @@ namespace dihaptic::task::conditions_test {
 namespace {
 
 constexpr int kBlock = 1;
-constexpr int kThumb = 2;  // fingers come after the bodies
+constexpr int kThumb = 2;  // fingers are numbered after the bodies
 constexpr int kIndex = 3;
 
-/// A director whose task waits in its only state for an exit, called tick by tick: two fingers, and
-/// a block in its place.
+/// A director that is called tick by tick, whose task waits for an exit in its only state. There
+/// are two fingers, and a block in its initial position.
 struct Waiting {
     explicit Waiting(const std::string& exit) {
         session::Files files;
@@ -47,14 +47,15 @@ struct Waiting {
         commands.task.reserve({2});
         tick();  // begins the trial
     }
-    /// Returns whether the exit is taken.
+    /// Runs a tick. Returns whether the exit was taken.
     bool tick() {
         last.time += std::chrono::milliseconds(1);
         commands.task.clear();
         (*director)(last, handles, commands);
         return commands.task.outcome == 0;
     }
-    /// Number of ticks until the exit is taken; -1: it is not taken within `most`.
+    /// Returns the number of ticks until the exit is taken, or -1 if it is not taken within `most`
+    /// ticks.
     int ticks(int most) {
         for (int i = 1; i <= most; ++i) {
             if (tick()) return i;
@@ -93,7 +94,7 @@ TEST(Conditions, AnExpressionHoldsAsLongAsItMust) {
     EXPECT_EQ(task.ticks(30), -1);
     task.last.contacts.clear();
     EXPECT_FALSE(task.tick());
-    task.handles[1].v_WH = {0.2, 0, 0};  // velocity in this tick
+    task.handles[1].v_WH = {0.2, 0, 0};  // velocity in the current tick
     EXPECT_EQ(task.ticks(100), 51);
 }
 
@@ -131,7 +132,7 @@ TEST(Conditions, AHandGripsWithTwoOfItsFingers) {
     Waiting task("{ when: gripped, body: block, finger: left, outcome: done }");
     task.press(kThumb);
     EXPECT_FALSE(task.tick());
-    task.press(kIndex, 0);  // touches with zero force
+    task.press(kIndex, 0);  // a contact without force
     EXPECT_FALSE(task.tick());
     task.press(kIndex);
     EXPECT_TRUE(task.tick());
@@ -141,7 +142,7 @@ TEST(Conditions, AConditionIsMetSoManyTimes) {
     Waiting task("{ when: touched, body: block, count: 3, hold_s: 0.002, outcome: done }");
     for (int i = 0; i < 3; ++i) {
         task.press(kIndex);
-        EXPECT_FALSE(task.tick());  // too short to count
+        EXPECT_FALSE(task.tick());  // held too briefly to count
         task.last.contacts.clear();
         EXPECT_FALSE(task.tick());
     }

@@ -1,4 +1,5 @@
-// Tests a task's own measures against the recorded frames, and the error for every mistake.
+// Tests the custom measures of a task against the recorded frames, and the error message for every
+// mistake.
 #include "task/plan/custom_measures.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ using session::Mistake;
 
 const char* const kBlocks = "  blocks:\n";
 
-/// Expects the row's SD, root mean square and median of x [mm].
+/// Checks the SD, root mean square and median of x in the row [mm].
 void expect_spread(const CsvFile& trials, size_t row, std::vector<double> x) {
     const auto count = static_cast<double>(x.size());
     double sum = 0;
@@ -63,9 +64,9 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
         double speed = 0, way = 0, entered = 0, waited = 0, z = 0;
         int phase = 0, ticks = 0;
         std::vector<double> x;       // [mm]
-        std::vector<double> speeds;  // during the reach [m/s]
-        std::vector<double> later;   // x from 50 to 100 ms after the reach's start [mm]
-        double fast = -1;            // time when the reach exceeds 0.1 m/s [s]
+        std::vector<double> speeds;  // speeds during the reach [m/s]
+        std::vector<double> later;   // x from 50 to 100 ms after the start of the reach [mm]
+        double fast = -1;            // time at which the reach exceeds 0.1 m/s [s]
     };
     std::map<int, Expected> expected;  // by trial
     recording::RawLogReader log(result.folder + "/raw.log");
@@ -99,7 +100,7 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
         EXPECT_NEAR(trials.number(i, "waited"), e.waited, 1e-6);
         EXPECT_NEAR(trials.number(i, "mean_z_m"), e.z, 1e-9);
         expect_spread(trials, i, e.x);
-        double held = 0;  // the best mean of 50 ticks
+        double held = 0;  // the highest mean over 50 ticks
         for (size_t k = 50; k <= e.speeds.size(); ++k) {
             double sum = 0;
             for (size_t j = k - 50; j < k; ++j) sum += e.speeds[j];
@@ -108,7 +109,7 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
         EXPECT_NEAR(trials.number(i, "held_m_s"), held, 1e-4);
         const double later = std::accumulate(e.later.begin(), e.later.end(), 0.0);
         EXPECT_NEAR(trials.number(i, "later_x_mm"), later / static_cast<double>(e.later.size()),
-                    0.5);  // sums of ticks have rounding errors at both ends
+                    0.5);  // rounding errors in sums of ticks, at both ends
         EXPECT_NEAR(trials.number(i, "fast_s"), e.fast, 1e-6);
         EXPECT_EQ(trials.text(i, "never_mm"), "");
         EXPECT_EQ(trials.text(i, kNotMeasured), "never_mm: not measured");
@@ -130,12 +131,12 @@ TEST(CustomMeasures, OfWhatIsShownFollowTheDisplayToTheLastTick) {
     double aside = 0;
     for (size_t i = 0; i < trials.rows(); ++i) {
         const double shown = trials.number(i, "shown_mm");
-        // the rule uses the hand one tick later, which in a reach is up to half a millimetre
-        // further
+        // the rule uses the position of the hand one tick later, which during a reach is up to half
+        // a millimetre further on
         EXPECT_NEAR(shown, trials.number(i, next_column("rule_mm")), 0.5);
         aside = std::max(aside, std::abs(shown - trials.number(i, "hand_mm")));
     }
-    EXPECT_GT(aside, 20);  // from the rotation: 30 degrees at 45 mm
+    EXPECT_GT(aside, 20);  // due to the rotation by 30 degrees, at 45 mm
 }
 
 TEST(CustomMeasures, AreKnownToRulesWhichLookBackOverTrials) {
@@ -188,7 +189,7 @@ TEST(CustomMeasures, AreKnownToRulesWhichLookBackOverTrials) {
         EXPECT_NEAR(after(i, "middle_mm_s"), middle, 1e-5);
         EXPECT_NEAR(after(i, "best_mm_s"), *std::max_element(tops.begin(), tops.end()), 1e-5);
         ahead += tops.back() > middle ? 1 : 0;
-        // tables have nine digits, and some of a script's reaches are alike
+        // the tables store nine digits, and some of the script's reaches are the same
         ties += std::abs(tops.back() - middle) < 1e-5 ? 1 : 0;
         EXPECT_NEAR(after(i, "ahead"), ahead, ties);
     }
@@ -300,7 +301,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kBlocks, "{ name: a, of: 'mean(trial_num, 3)', take: max }",
                 "'mean' looks back over trials. Set a variable to it in after_trial"}));
 
-/// A mistake in a measure that a rule may name, or in the rule.
+/// A mistake in a measure that a rule may use, or in the rule itself.
 class MistakenRule : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(MistakenRule, IsRefused) {

@@ -1,5 +1,5 @@
-// Tests the draws of trials: their distributions against closed forms, and that the seed determines
-// them.
+// Tests the draws of trials: their distributions are compared with closed forms, and the seed must
+// determine their values.
 #include "task/file/draws.h"
 #include "base/number.h"
 
@@ -28,8 +28,8 @@ std::vector<double> drawn_10000(const DrawSpec& draw, uint64_t seed) {
     return drawn(draw, blocks, 7, seed);
 }
 
-/// Probability that a sample is at least as far from the distribution as this one, by the test of
-/// Kolmogorov and Smirnov; the sample size enters as in Stephens (1970).
+/// Returns the probability that a random sample is at least as far from the distribution as this
+/// sample, by the Kolmogorov-Smirnov test; the sample size enters as in Stephens (1970).
 template <class Cdf>
 double p_of(std::vector<double> sample, const Cdf& cdf) {
     std::sort(sample.begin(), sample.end());
@@ -90,7 +90,7 @@ TEST(Draws, TenThousandForeperiodsAreFrozenInTheListAndRepeatedByTheSeed) {
     };
     EXPECT_NE(list(1), list(2));
     EXPECT_EQ(list(1), list(1));
-    std::vector<double> waits;  // from the list, as in a resumed session
+    std::vector<double> waits;  // values read from the list, as in a resumed session
     for (const Trial& trial : read_trial_list(plan.task, folder.file("trial-list.csv")))
         waits.push_back(trial.draws.at(0));
     ASSERT_EQ(waits.size(), kTrials);
@@ -140,7 +140,7 @@ TEST(Draws, AChoiceFollowsItsWeights) {
     draw.weights = {1, 3, 0};
     std::map<double, int> counts;
     for (const double value : drawn_10000(draw, 1)) ++counts[value];
-    EXPECT_EQ(counts.size(), 2u);  // texts are given by their index
+    EXPECT_EQ(counts.size(), 2u);  // texts are represented by their indices
     EXPECT_NEAR(counts[1], 7500, 4 * std::sqrt(10000 * 0.75 * 0.25));
     draw.choice = {"-1", "2.5"};
     draw.weights.clear();

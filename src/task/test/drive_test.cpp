@@ -1,5 +1,5 @@
-// Tests bodies that states drive: on minimum-jerk paths, along expressions, and until the states
-// release them.
+// Tests bodies that states drive: along minimum-jerk paths and along expressions, until the states
+// release the bodies.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,8 @@ std::string state(const std::string& name, const std::string& next, const std::s
            " }], drive: [" + drive + "], simulated_hand: [{ duration_s: 0.1 }] }\n";
 }
 
-/// Frames of the first trial of an experiment with these states; the recording must replay.
+/// Returns the frames of the first trial of an experiment with these states. Its recording must
+/// replay exactly.
 std::vector<frame::Frame> frames_of(session::Files& files, const std::string& states) {
     files.experiment = "scene: scene.yaml\nhand: { centre_mm: [0, 0, 220] }\ntask:\n  states:\n" +
                        states + "  blocks: [{ name: all, repeats: 2 }]\n";
@@ -104,10 +105,10 @@ TEST(Drive, FollowsATable) {
         return frames[static_cast<size_t>(std::lround(t / kTick))].bodies[kPlatform].X_WB.p;
     };
     EXPECT_LT((at(0.04) - Vec3(0.2, 0, 0.1)).norm(), 1e-12);
-    // at up to 0.45 m/s, a state that begins a tick later or earlier shifts the platform by the
-    // distance of one tick
+    // at a speed of up to 0.45 m/s, a state that begins one tick later or earlier shifts the
+    // platform by the distance it moves in one tick
     EXPECT_NEAR(at(0.15).z(), 0.13, 1e-3);
-    EXPECT_NEAR(at(0.2).z(), 0.1 + 0.03 - 0.01, 1e-3);  // halfway, with slopes of 50 and 0 mm/s
+    EXPECT_NEAR(at(0.2).z(), 0.1 + 0.03 - 0.01, 1e-3);  // halfway between slopes of 50 and 0 mm/s
     EXPECT_LT((at(0.28) - Vec3(0.2, 0, 0.11)).norm(), 1e-9);
 }
 
@@ -145,7 +146,7 @@ TEST(Drive, HandsABodyOverAndLetsItGo) {
     ASSERT_GT(frames.size(), 550u);
     EXPECT_LT((frames[290].bodies[1].X_WB.p - Vec3(0.1, 0, 0.2)).norm(), 1e-6);
     const double fallen = 0.2 - frames.back().bodies[1].X_WB.p.z();
-    EXPECT_GT(fallen, 0.15);  // back on the table
+    EXPECT_GT(fallen, 0.15);  // the block is back on the table
 }
 
 class BrokenDrive : public ::testing::TestWithParam<Mistake> {};

@@ -1,5 +1,5 @@
-// Tests expressions: values, dimensions and names against hand-written cases, arithmetic against
-// Python's, and the message for each mistake.
+// Tests expressions: values, dimensions and names are compared with hand-written cases, and
+// arithmetic with Python; each mistake must give its message.
 #include "task/expression/expression.h"
 #include "base/number.h"
 
@@ -24,7 +24,7 @@ struct Grasp {
         last.time = std::chrono::milliseconds(1500);
         last.grip_force = 2.5;
         last.fingers.resize(2);
-        last.fingers[0].p_WH = {-1, -1, -1};  // position of the last tick
+        last.fingers[0].p_WH = {-1, -1, -1};  // position in the last tick, which must not be used
         last.fingers[0].p_WP = {-0.02, 0, 0.05};
         last.fingers[1].normal_force = 2;
         last.fingers[1].buttons = 5;
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"1 / 20 mm/s", 50}, Case{"9.81 m/s^2 * 2 s^2", 19.62}, Case{"3 N*s/m", 3},
         Case{"2 kg*m/s^2 == 2 N", 1}, Case{"sqrt(4 m^2) < 2001 mm", 1}, Case{"200ms", 0.2},
         Case{"block.z / 1 mm", 60}, Case{"min(1, 2, 3, block.z) < 61 mm", 1},
-        // quantities of the tick
+        // quantities measured in each tick
         Case{"grip_force", 2.5}, Case{"time", 1.5}, Case{"index.normal_force", 2},
         Case{"index.buttons % 8", 5}, Case{"block.position.y", 0.2}, Case{"block.speed", 0.05},
         Case{"block.x + block.y", 0.3}, Case{"block.orientation.w", 1},
@@ -174,15 +174,16 @@ TEST(Expression, EveryQuantityOfTheFrameHasAName) {
         ++found;
     }
     EXPECT_GT(found, 100);
-    // one device does not measure its handle's orientation: the list does not say which one
+    // one device does not measure the orientation of its handle, and the list does not show which
+    // device this is
     EXPECT_TRUE(std::isnan(grasp.value("index.torque_sent.x")));
     grasp.last.turns.resize(2);
     grasp.last.turns[1].t_sent_W.x() = 0.25;
     EXPECT_EQ(grasp.value("index.torque_sent.x"), 0.25);
-    // a quantity in two expressions is read once
+    // a quantity used in two expressions is read only once
     EXPECT_EQ(grasp.quantities.pressing(1, 3), grasp.quantities.pressing(1, 3));
     EXPECT_NE(grasp.quantities.pressing(1, 3), grasp.quantities.pressing(1, 1));
-    // before the first tick nothing is known
+    // no values are known before the first tick
     grasp.last = {};
     EXPECT_TRUE(std::isnan(grasp.value("block.z")));
     EXPECT_EQ(grasp.value("touched(block)"), 0);
@@ -284,18 +285,18 @@ TEST(Expression, NestingAndLengthHaveLimits) {
     std::string wide = "score";
     for (int i = 0; i < 200; ++i) wide += " + score";
     EXPECT_EQ(said(wide), "");
-    // a part of a chain is computed twice, a part within that part four times, and so on
+    // part of a chain is evaluated twice, part of that part four times, and so on
     std::string chain = "score";
     for (int i = 0; i < 15; ++i) chain = "(1 if 1 < " + chain + " < 2 else 2)";
     EXPECT_NE(said(chain).find("is too long"), std::string::npos);
 }
 
-/// A whole number from 0 to n - 1.
+/// Returns a random integer from 0 to n - 1.
 size_t below(Random& random, size_t n) {
     return static_cast<size_t>(random.uniform(0, static_cast<double>(n)));
 }
 
-/// Writes random expressions of x, y, z.
+/// Writes random expressions in x, y and z.
 class Writer {
   public:
     explicit Writer(Random& random) : random_(random) {}
@@ -345,8 +346,8 @@ class Writer {
     }
 
   private:
-    /// The text in brackets or, in one of `often` cases, without them, unless that would change
-    /// which part is a number and which a condition.
+    /// Returns the text in brackets or, in one out of `often` cases, without brackets, unless
+    /// removing them would change which part is a number and which is a condition.
     std::string bracketed(const std::string& text, size_t often) {
         const bool binds =
             text.find(" if ") == std::string::npos && text.find(" or ") == std::string::npos &&
@@ -366,7 +367,7 @@ class Writer {
     Random& random_;
 };
 
-/// Whether two values agree as closely as the test requires.
+/// Whether two values agree to within the tolerance of the test.
 bool agree(double a, double b) {
     if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
     return a == b || std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b));
@@ -422,7 +423,7 @@ TEST(Expression, TenThousandAgreeWithPython) {
     EXPECT_GT(finite, kExpressions / 2);
 }
 
-/// A grip force that grows by 7 N/s, and after a gap by 3 N/s.
+/// The grip force increases by 7 N/s and, after a gap, by 3 N/s.
 TEST(Expression, RatesAreDifferencesOverTheLastTicks) {
     Grasp grasp;
     const Expression rate = grasp.compile("rate(grip_force)");
@@ -473,8 +474,8 @@ TEST(Expression, AllocatesNothingInTheTick) {
     EXPECT_EQ(sum, 1000);
 }
 
-/// Each of many fingers differs from every other one, even if their indices differ by a multiple
-/// of 32.
+/// Each of many fingers must be distinguished from every other finger, even if their indices differ
+/// by a multiple of 32.
 TEST(Expression, AnyNumberOfFingersAreToldApart) {
     for (const size_t count : {2, 31, 32, 33, 64, 65, 200}) {
         SCOPED_TRACE(count);
@@ -499,7 +500,7 @@ TEST(Expression, AnyNumberOfFingersAreToldApart) {
         };
         for (const size_t touching : {size_t{0}, count / 2, count - 1}) {
             last.contacts[0] = {.a = 0, .b = static_cast<int>(1 + touching), .normal_force = 2};
-            last.contacts[1] = last.contacts[0];  // another point of the same finger
+            last.contacts[1] = last.contacts[0];  // a second contact point on the same finger
             double touched = 0;
             for (size_t i = 0; i < count; ++i) {
                 const std::string finger = fmt::format("f{}", i);

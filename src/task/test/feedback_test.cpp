@@ -1,4 +1,5 @@
-// Tests that a trial's feedback can be read: it stays for a while before the next message.
+// Tests that participants have time to read a trial's feedback: it stays for a while before the
+// next message replaces it.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -11,12 +12,12 @@
 namespace dihaptic::task::feedback_test {
 namespace {
 
-/// A message, with the times at which it appeared and disappeared [s].
+/// A message, and the times at which it appeared and disappeared [s].
 struct Said {
     std::string message;
     double from = 0;
     double until = 0;
-    int trials = 1;  // number of trials that ran meanwhile
+    int trials = 1;  // number of trials that ran while the message was shown
 };
 
 std::vector<Said> said_in(const session::RunResult& result) {
@@ -87,7 +88,7 @@ TEST(Feedback, InATrialHoldsBackTheNextStatesMessageButNotTheState) {
         ++back;
         EXPECT_EQ(said[i - 1].message, "Good");
         EXPECT_NEAR(said[i - 1].until - said[i - 1].from, 1, 2e-3);
-        EXPECT_NEAR(said[i].until - said[i].from, 0.5, 3e-3);  // the rest of the state's time
+        EXPECT_NEAR(said[i].until - said[i].from, 0.5, 3e-3);  // for the rest of the state's time
     }
     EXPECT_EQ(back, 9);
 }

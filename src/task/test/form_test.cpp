@@ -1,4 +1,5 @@
-// Tests forms: several questions in one state, whose answers take effect once they are confirmed.
+// Tests forms: several questions in one state, with answers that take effect only once they are
+// confirmed.
 #include "task/file/form.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +44,7 @@ task:
     - { name: form, begins: ask, repeats: 1 }
 )";
 
-constexpr int kUnread = 201;  // ticks in which a form takes no answers
+constexpr int kUnread = 201;  // number of initial ticks in which a form accepts no answers
 
 struct Forms : session::Files {
     Forms() { experiment = kTask; }
@@ -54,13 +55,13 @@ struct Forms : session::Files {
     std::string form = kForm;
 };
 
-/// What the director ordered at the end of the trial with the form; keys are pressed in the form's
-/// state, one every other tick.
+/// Returns the director's commands at the end of the trial with the form. While the form is shown,
+/// keys are pressed, one in every other tick.
 frame::TaskFrame filled(const session::Plan& plan, const std::string& keys,
                         std::vector<std::string>* lines = nullptr) {
     test::RestingHand hand(plan);
     size_t at = 0;
-    int ticks = 0;  // number of ticks in the form
+    int ticks = 0;  // number of ticks in the form's state
     for (int i = 0; i < 20000; ++i) {
         const frame::Commands& commands = hand.tick();
         if (commands.phase == 2 && commands.task.outcome >= 0) return commands.task;
@@ -126,12 +127,13 @@ TEST(Form, EnterAfterANumberThatIsCompleteLeavesNothingOut) {
     Forms files;
     files.form.replace(files.form.find("optional: yes"), 13, "optional: no ");
     files.form.insert(files.form.find(", labels: [un"), ", optional: yes");
-    // 20 is complete since no digit can follow it; the Enter after it must not skip the next item
+    // 20 is complete because no digit can follow it, so the Enter after it must not skip the next
+    // item
     const frame::TaskFrame end = filled(files.plan(), "20\r1\r7\r\r");
     EXPECT_EQ(answers(end), (std::vector<double>{20, 1, 7}));
 }
 
-/// A window that draws slowly passes all keys typed meanwhile on at once.
+/// A window that draws slowly passes on all keys typed in the meantime at once.
 TEST(Form, LosesNoKeyOfThoseThatComeAtOnce) {
     Forms files;
     const session::Plan plan = files.plan();
@@ -182,7 +184,7 @@ TEST(Form, IsClickedInAnyOrderAndConfirmedByTheButton) {
     const std::vector<Click> clicks{Click::at(3, 0), Click::at(1, 1), Click::at(0, 0.5),
                                     Click::at(0, 0.25), Click::at(3, 0)};
     size_t at = 0;
-    int ticks = 0;  // number of ticks in the form
+    int ticks = 0;  // number of ticks in the form's state
     for (int i = 0; i < 20000; ++i) {
         const frame::Commands& commands = hand.tick();
         if (commands.phase == 2 && commands.task.outcome >= 0) {
@@ -193,7 +195,7 @@ TEST(Form, IsClickedInAnyOrderAndConfirmedByTheButton) {
             return;
         }
         if (commands.phase != 2 || ++ticks < kUnread || i % 2 != 0) continue;
-        if (at == 4) hand.director.press('\r');  // leaves out the last item
+        if (at == 4) hand.director.press('\r');  // skips the last item
         if (at < clicks.size()) hand.director.click(clicks[at++]);
     }
     FAIL() << "the trial did not end";

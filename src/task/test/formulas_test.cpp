@@ -1,5 +1,5 @@
-// Tests draws, factors, variables and formulas in tasks: their effects in trials, their values in
-// tables, sessions that are resumed and recovered, and the error for every mistake.
+// Tests draws, factors, variables and formulas in tasks: how they affect trials, their values in
+// tables, sessions that are resumed or recovered, and the error message for every mistake.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using session::Mistake;
 
-/// Waits of drawn durations, then reaches to a target that moves on as the score grows.
+/// Waits with random durations, followed by reaches to a target that moves further away as the
+/// score grows.
 const char* const kFormulas = R"(title: Formulas
 scene: scene.yaml
 hand: { centre_mm: [0, 0, 120] }
@@ -104,8 +105,8 @@ TEST(Formulas, OfTheSimulatedHandsStepsAreResolvedInEachTrial) {
     for (const auto& [trial, row] : rows) {
         const Vec3 way = last.at(trial).second - began.at(trial).second;
         const double reach = trials.number(row, "side") * trials.number(row, "reach_mm") * 1e-3;
-        // the trial ends as the hand enters the target, before the end of its step; and the hand
-        // may still be on its way home when the trial begins
+        // the trial ends when the hand enters the target, before the end of the reaching step, and
+        // the hand may still be returning home when the trial begins
         EXPECT_GT(way.x() / reach, 0.5) << trial;
         EXPECT_LT(way.x() / reach, 1.2) << trial;
         EXPECT_NEAR(way.z() / way.x(), 0.01 / reach, 0.3 * std::abs(0.01 / reach)) << trial;
@@ -117,7 +118,7 @@ TEST(Formulas, FollowDrawsFactorsAndVariablesInEachTrial) {
     const session::Plan plan = session::make_plan(files.request());
     const session::RunResult result = files.run(plan);
     finish(result);
-    // the first block ends when the score is 60
+    // the first block ends when the score reaches 60
     EXPECT_EQ(column(result.folder, "outcome"), std::vector<std::string>(10, "reached"));
     EXPECT_EQ(column(result.folder, "trial_num"),
               (std::vector<std::string>{"1", "2", "3", "4", "5", "6", "9", "10", "11", "12"}));
@@ -214,7 +215,7 @@ TEST(Formulas, TheFrozenTaskAndListGiveTheSameTrials) {
         EXPECT_EQ(frozen.trials[k].draws, plan.task->trials[k].draws);
         before.begin(i, 1, plan.task->start);
         after.begin(i, 1, frozen.start);
-        EXPECT_EQ(before.cell().p_W, after.cell().p_W);  // identical to the bit
+        EXPECT_EQ(before.cell().p_W, after.cell().p_W);  // identical bit by bit
         for (size_t r = 0; r < before.cell().regions.size(); ++r)
             EXPECT_EQ(before.cell().regions[r].radius.value, after.cell().regions[r].radius.value);
         EXPECT_EQ(before.of(plan.task->task.states[0].exits[0].hold),
@@ -226,7 +227,8 @@ TEST(Formulas, ATaskWithoutThemHasTheListThatItAlwaysHad) {
     session::Files files;
     const session::Plan plan = session::make_plan(files.request());
     const Table list = frozen_list(*plan.task, plan.scene);
-    EXPECT_EQ(list.columns.size(), kTrialListColumns.size() + 13);  // columns of the reach
+    EXPECT_EQ(list.columns.size(),
+              kTrialListColumns.size() + 13);  // plus the columns for the reach
     const std::string task = to_yaml(write_fields(plan.task->task));
     for (const char* key : {"draws", "variables", "after_trial", "cross", "factors", "until"})
         EXPECT_EQ(task.find(key), std::string::npos) << key;

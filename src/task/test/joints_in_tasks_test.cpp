@@ -1,5 +1,5 @@
-// Tests tasks that name joints: trials that begin with them displaced, conditions on them, springs
-// that differ by trial, and motors.
+// Tests tasks that use joints: trials that begin with displaced joints, conditions on joints,
+// springs that differ between trials, and motors.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,7 +17,7 @@ using session::Mistake;
 constexpr double kLength = 0.1;
 constexpr double kGravity = 9.81;
 
-/// A lamp that hangs from a beam on a string of two rods, and a drawer.
+/// A scene with a lamp that hangs from a beam on a string of two rods, and with a drawer.
 struct Jointed : session::Files {
     Jointed() {
         scene.insert(scene.find("fingers:"),
@@ -41,7 +41,8 @@ struct Jointed : session::Files {
             "  - { name: scale, kind: slider, between: [pan], position_mm: [-200, 100, 200], "
             "axis: [0, 0, 1], stiffness_N_m: 50, damping_Ns_m: 3 }\n";
     }
-    /// Writes a task whose state has these keys, with a perturbation and its conditions, if any.
+    /// Writes a task whose state has the keys `what`, with a perturbation and its conditions, if
+    /// given.
     void does(const std::string& what, const std::string& perturbation = "",
               const std::string& conditions = "") {
         experiment = "scene: scene.yaml\nhand: { centre_mm: [0, 0, 220] }\ntask:\n" +
@@ -56,7 +57,8 @@ struct Jointed : session::Files {
                      conditions + "  blocks: [{ name: all, order: sequential" +
                      (perturbation.empty() ? "" : ", kind: perturbed, perturb: changed") + " }]\n";
     }
-    /// Frames of the trials' last ticks in the state, after a session that must replay.
+    /// Runs the session, which must replay exactly. Returns the frame of each trial's last tick in
+    /// the state.
     std::vector<frame::Frame> last_frames() {
         const session::RunResult result = run(session::make_plan(request()));
         EXPECT_FALSE(result.interrupted) << result.fault;
@@ -104,7 +106,7 @@ TEST(JointsInTasks, BeginWhereATrialSaysWithAllThatHangsOnThem) {
     double passed = 0;
     while (const frame::Frame* frame = log.next()) {
         if (frame->phase == 0) continue;
-        if (first) {  // after one step of gravity
+        if (first) {  // gravity has acted for one step
             EXPECT_LT((frame->bodies[2].X_WB.p - Vec3(0.2, 0, 0.5) - kLength * down).norm(), 1e-5);
             EXPECT_LT((frame->bodies[3].X_WB.p - Vec3(0.2, 0, 0.5) - 2 * kLength * down).norm(),
                       1e-5);
@@ -115,15 +117,16 @@ TEST(JointsInTasks, BeginWhereATrialSaysWithAllThatHangsOnThem) {
         }
         EXPECT_NEAR(frame->joints[2].displacement, 0.03, 1e-6);
         EXPECT_TRUE(std::isnan(frame->joints[3].angle));
-        // the parts below the hinge pull at it with about their weight, in the world's frame
+        // the parts below the hinge pull on it with about their weight; the force is in the world
+        // frame
         EXPECT_GT(frame->joints[0].f_B_W.z(), 0.5 * 0.1 * kGravity);
         last = frame->joints[0].angle;
         passed += 1e-3;
     }
     EXPECT_FALSE(first);
     EXPECT_LT(last, 0.01);
-    // a straight double pendulum of equal masses falls as one at first: between the quarter periods
-    // of its two modes, 2 pi sqrt(l / (2 -+ sqrt 2) / g) / 4
+    // a straight double pendulum with equal masses first falls as one piece, in a time between the
+    // quarter periods of its two modes, 2 pi sqrt(l / (2 -+ sqrt 2) / g) / 4
     const double mode = M_PI / 2 * std::sqrt(kLength / kGravity);
     EXPECT_GT(passed, mode / std::sqrt(2 + std::sqrt(2.0)));
     EXPECT_LT(passed, 1.2 * mode / std::sqrt(2 - std::sqrt(2.0)) + 0.1);
@@ -157,7 +160,7 @@ TEST(JointsInTasks, AreMovedByMotors) {
     ASSERT_EQ(last.size(), 1u);
     const frame::Frame& end = last[0];
     EXPECT_NEAR(end.joints[kDrawer].displacement, 0.04, 1e-6);
-    EXPECT_NEAR(end.joints[kShoulder].angle, 0, 5e-3);  // after one turn of the sine
+    EXPECT_NEAR(end.joints[kShoulder].angle, 0, 5e-3);  // after one period of the sine
     EXPECT_NEAR(end.joints[kShoulder].angular_velocity, 30 * M_PI / 180 * 2 * M_PI, 0.02);
     EXPECT_NEAR(end.joints[kScale].displacement, (2 - 0.05 * kGravity) / 50, 3e-3);
     ASSERT_EQ(end.task.motors.size(), 3u);
@@ -215,7 +218,8 @@ TEST(JointsInTasks, BeginWithTheRateThatATrialSays) {
     EXPECT_NEAR(frame->joints[kShoulder].angular_velocity, rate, 0.03);
     EXPECT_NEAR(frame->joints[1].angular_velocity, 0, 0.05);  // the elbow stays straight
     EXPECT_NEAR(frame->bodies[3].v_WB.norm(), 2 * kLength * rate, 0.01);
-    EXPECT_NEAR(frame->joints[3].velocity, -0.05, 0.02);  // after a step of its spring and damper
+    EXPECT_NEAR(frame->joints[3].velocity, -0.05,
+                0.02);  // its spring and damper have acted for one step
     EXPECT_NEAR(frame->bodies[1].v_WB.z(), 0.5 - kGravity * 1e-3, 1e-6);
 }
 

@@ -1,4 +1,4 @@
-// Tests numbers that procedures choose and formulas name, in two intervals whose order is drawn.
+// Tests numbers that procedures choose for use in formulas, in two intervals whose order is random.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ TEST(Levels, OfConstantStimuliComeEquallyOftenInAnOrderOfTheSeed) {
     EXPECT_FALSE(same);
     EXPECT_EQ(count.size(), 6u);
     for (const auto& [level, times] : count) EXPECT_EQ(times, 10) << level;
-    // each round has each level once
+    // every round contains each level once
     for (size_t round = 0; round < 10; ++round) {
         std::set<double> levels;
         for (size_t i = 0; i < 6; ++i) levels.insert(a[6 * round + i].level);
@@ -102,9 +102,10 @@ TEST(Levels, OrderOfIntervalsIsDrawnFromTheSeedAndFrozen) {
 TEST(Levels, ThatAdaptSettleAtTheThreshold) {
     struct Case {
         const char* procedure;
-        double wanted;  // level with the share of right answers at which the procedure settles
+        double wanted;  // level at which the procedure settles, given its share of right answers
     };
-    // Phi((x - 0.35) / 0.1) = 2 (p - 0.5), with p: 80.35 %, 82 %, and about 83 %
+    // the levels satisfy Phi((x - 0.35) / 0.1) = 2 (p - 0.5), with p = 80.35 %, 82 %, and about 83
+    // %
     for (const Case& c : {Case{kStaircase, 0.377}, Case{kQuest, 0.386}, Case{kQuestPlus, 0.39}}) {
         double mean = 0;
         constexpr int kRuns = 10;
@@ -249,7 +250,7 @@ TEST(Levels, AreWhereABodyIsPutInEachInterval) {
     EXPECT_EQ(trials, 60);
 }
 
-/// Loads in place of the factor on friction.
+/// The same task with loads instead of a factor on the friction.
 struct Loads : Intervals {
     explicit Loads(const std::string& stiffness) : Intervals(kConstant) {
         replace("body: { body: block, friction_scale: 1 + more }",
@@ -278,7 +279,7 @@ TEST(Levels, AreNumbersOfLoads) {
     const Motion motion{{0.01, 0, 0.12}, {1, 0, 0}};
     EXPECT_NEAR(loads[0].act(1, cell.p_W, motion).force.x(), -1.5 - 1, 1e-9);
     EXPECT_NEAR(loads[1].act(1, cell.p_W, motion).force.z(), -1, 1e-12);
-    // at its standard in the interval without the comparison
+    // the number has its standard value in the interval without the comparison
     const int interval = plan.task->interval_of(plan.task->trials[0]);
     numbers.follow(1, 1, variables, interval == 1 ? 2 : 0);
     EXPECT_NEAR(numbers.cell().perturbations[0].loads()[0].stiffness(), 100, 1e-9);

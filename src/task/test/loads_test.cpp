@@ -1,5 +1,5 @@
-// Tests loads against closed forms: their laws, their zones, delays and profiles, and what bodies
-// do under them.
+// Tests loads against closed forms: their laws, zones, delays and profiles, and how bodies move
+// under them.
 #include "task/effects/load/load.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,8 @@ namespace {
 
 constexpr double kTick = 1e-3;
 
-/// A load of a scene with a table, a block and the finger `index`; regions start and target.
+/// A load in a scene that has a table, a block and the finger `index`, and regions `start` and
+/// `target`.
 class OneLoad {
   public:
     explicit OneLoad(const std::string& yaml) {
@@ -116,7 +117,7 @@ TEST(Load, AOneSidedPlaneIsAWallThatPushesAndNeverHolds) {
     EXPECT_EQ(force_at(0.001, -0.1), Vec3::Zero());
     EXPECT_LT((force_at(-0.004, 0) - Vec3(0, 0, 2)).norm(), 1e-12);
     EXPECT_LT((force_at(-0.004, -0.1) - Vec3(0, 0, 3)).norm(), 1e-12);
-    EXPECT_EQ(force_at(-0.004, 0.3), Vec3::Zero());  // the load's damper would pull
+    EXPECT_EQ(force_at(-0.004, 0.3), Vec3::Zero());  // otherwise, the load's damper would pull
 }
 
 TEST(Load, FadesToZeroBeyondItsZone) {
@@ -139,7 +140,7 @@ TEST(Load, FadesToZeroBeyondItsZone) {
         EXPECT_NEAR(at(channel, y), -100 * y * left, 1e-12);
     }
     EXPECT_NEAR((*away).demand().force, 3, 1e-12);
-    EXPECT_NEAR((*away).demand().stiffness, 150, 1e-9);  // 3 N within 20 mm
+    EXPECT_NEAR((*away).demand().stiffness, 150, 1e-9);  // due to fading: 3 N over 20 mm
 }
 
 TEST(Load, SaysWhatItAsksOfALoop) {
@@ -174,7 +175,7 @@ TEST(Profile, RisesStaysAndFallsAndItsIntegralIsThatOfATrapezium) {
             EXPECT_LE(share, 1);
             sum += share * kTick;
         }
-        EXPECT_NEAR(sum, 0.02 / 2 + 0.08 + 0.04 / 2, 1e-6);  // ramps are symmetric
+        EXPECT_NEAR(sum, 0.02 / 2 + 0.08 + 0.04 / 2, 1e-6);  // the ramps are symmetric
         EXPECT_EQ(profile.share(0.099), 0);
         EXPECT_NEAR(profile.share(0.11), 0.5, 1e-6);
         EXPECT_EQ(profile.share(0.15), 1);
@@ -184,7 +185,7 @@ TEST(Profile, RisesStaysAndFallsAndItsIntegralIsThatOfATrapezium) {
     EXPECT_EQ(Profile{}.share(0), 1);
     EXPECT_EQ(Profile{}.share(1e6), 1);
     Profile step;
-    step.delay = 0.3;  // 0.1 + 0.2 is more than 0.3 by a rounding error
+    step.delay = 0.3;  // because of rounding, 0.1 + 0.2 is more than 0.3
     step.plateau = 0.1;
     EXPECT_EQ(step.share(0.1 + 0.2 - kTick), 0);
     EXPECT_EQ(step.share(0.1 + 0.2), 1);
@@ -204,7 +205,7 @@ TEST(Motions, KeepWhatWasADelayAgo) {
         motions.add(last, handles);
     };
     tick(1);
-    EXPECT_EQ(motions.of(0, 0), nullptr);  // before the first Frame no body is known
+    EXPECT_EQ(motions.of(0, 0), nullptr);  // no body is known before the first Frame
     EXPECT_EQ(motions.of(1, 0)->p_W.x(), 1);
     last.sequence = 0;
     for (int i = 2; i <= 30; ++i) {
@@ -223,8 +224,8 @@ TEST(Motions, KeepWhatWasADelayAgo) {
     EXPECT_EQ(motions.of(1, 0), nullptr);
 }
 
-/// A block 0.5 m up in the air, where the region `there` is, and the states of one trial under the
-/// listed `perturbations`.
+/// A block in the air, 0.5 m up in the region `there`, and the states of one trial in which the
+/// listed `perturbations` act.
 struct InTheAir : session::Files {
     explicit InTheAir(
         const std::string& perturbations, const std::string& perturb,
@@ -239,7 +240,8 @@ struct InTheAir : session::Files {
             perturbations + "  states:\n" + states +
             "  blocks: [{ name: all, kind: perturbed, perturb: " + perturb + " }]\n";
     }
-    /// Frames of the trial except its last, in which nothing acts any more.
+    /// Returns the frames of the trial, except its last frame, in which no perturbation acts any
+    /// more.
     std::vector<frame::Frame> run() {
         const session::RunResult result = Files::run(session::make_plan(request()));
         std::vector<frame::Frame> out;
@@ -261,7 +263,7 @@ TEST(Load, ABodyOnASpringOscillatesWithItsPeriod) {
         "stiffness_N_m: 100 }] }\n",
         "spring");
     const double sag = kMass * kGravity / 100;
-    const double rate = std::sqrt(100 / kMass);  // a period of 0.2 s
+    const double rate = std::sqrt(100 / kMass);  // corresponds to a period of 0.2 s
     double t = 0;
     const std::vector<frame::Frame> frames = files.run();
     for (const frame::Frame& frame : frames) {
@@ -313,7 +315,8 @@ TEST(Load, ATorqueTurnsABodyByItsInertia) {
     for (const frame::Frame& frame : files.run()) {
         t += kTick;
         EXPECT_NEAR(frame.bodies[1].w_WB.z(), 1e-3 / inertia * t, 1e-6);
-        EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), 0.5, 1e-9);  // the force bears the block's weight
+        EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), 0.5,
+                    1e-9);  // the force supports the weight of the block
     }
     EXPECT_GT(t, 0.35);
 }
@@ -334,7 +337,7 @@ TEST(Load, ATorqueOnAHandleIsAddedToTheCouplings) {
         const frame::TurnFrame& turn = frames[i].turns.at(0);
         EXPECT_LT((turn.t_sent_W - turn.t_asked_W - Vec3(0, 0, 0.02)).norm(), 1e-12) << i;
     }
-    // the hand holds the handle with 1 N*m/rad
+    // the hand holds the handle with a stiffness of 1 N*m/rad
     EXPECT_NEAR(rotation_vector(frames.back().turns[0].R_WH).z(), 0.02, 2e-3);
 }
 
@@ -373,7 +376,7 @@ TEST(Perturbation, APulseFollowsItsProfileAcrossStatesAndNoOthers) {
     profile.rise = 0.02;
     profile.plateau = 0.06;
     profile.fall = 0.04;
-    int ticks = 0;  // since the second state was entered
+    int ticks = 0;  // number of ticks since the second state was entered
     double impulse = 0;
     for (const frame::Frame& frame : files.run()) {
         const bool acts = frame.phase == 2 || frame.phase == 3;

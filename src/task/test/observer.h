@@ -1,5 +1,5 @@
-// An observer with a known psychometric function, who compares the friction of a block in two
-// intervals of a trial and presses 1 or 2; and an experiment that asks for this comparison.
+// A simulated observer with a known psychometric function, who compares the friction of a block in
+// the two intervals of a trial and presses 1 or 2, and an experiment that asks for this comparison.
 #pragma once
 
 #include <cmath>
@@ -14,8 +14,8 @@
 
 namespace dihaptic::task::test {
 
-/// PROCEDURE stands for the procedure that chooses the levels: how much more slippery the
-/// comparison is.
+/// An experiment in which PROCEDURE stands for the procedure that chooses the levels. A level is
+/// how much more slippery the block is in the comparison.
 inline const char* const kIntervals = R"(title: Two intervals
 scene: scene.yaml
 hand: { centre_mm: [0, 0, 120] }
@@ -53,22 +53,23 @@ struct Intervals : session::Files {
 };
 
 struct IntervalTrial {
-    double level = 0;     ///< recorded
-    double standard = 0;  ///< friction_scale in the interval without the comparison
+    double level = 0;     ///< level as recorded
+    double standard = 0;  ///< friction_scale in the interval with the standard
     double comparison = 0;
     bool chose_comparison = false;
     std::string outcome;
     Attempt attempt;
 };
 
-/// Runs trials, starting after those of `done`, until the session is over or `most` are done.
+/// Runs trials, starting after those in `done`, until the session is over or `most` trials are
+/// done.
 inline std::vector<IntervalTrial> observe(const session::Plan& plan,
                                           const model::Psychometric& observer, Random& random,
                                           const std::vector<Attempt>& done = {},
                                           size_t most = 100000) {
     RestingHand hand(plan, done);
     std::vector<IntervalTrial> out;
-    std::map<int, double> felt;  // by phase
+    std::map<int, double> felt;  // friction_scale felt in each phase
     while (out.size() < most) {
         const frame::Commands& commands = hand.tick();
         if (!commands.task.properties.empty())

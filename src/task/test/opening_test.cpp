@@ -1,4 +1,4 @@
-// Tests what comes before a block: a break, and pages of text and pictures.
+// Tests the opening of a block: a break, and pages of text and pictures.
 #include "task/run/opening.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,8 @@ namespace {
 const char* const kFirst = "{ name: before, kind: baseline, repeats: 1 }";
 const char* const kSecond = "{ name: turned, kind: perturbed,";
 
-/// A director that is called tick by tick, with one finger at the start and the block in its place.
+/// A director that is called tick by tick, with one finger at the start and the block in its
+/// initial position.
 struct Asked {
     explicit Asked(session::Files& files) : plan(session::make_plan(files.request())) {
         last.fingers.resize(1);
@@ -28,7 +29,7 @@ struct Asked {
         last.fingers[0].p_WP = handles[0].p_WH;
         commands.task.reserve({last.bodies.size()});
     }
-    /// Runs until a time [s]; in the first tick `key` is pressed, unless it is 0.
+    /// Runs until the time `until` [s]. `key` is pressed in the first tick, unless it is 0.
     const frame::Commands& run(double until, char key = 0) {
         for (; tick < until * 1e3; ++tick, key = 0) {
             last.sequence = tick;
@@ -68,7 +69,7 @@ TEST(Opening, PagesWaitForTheirKeyOrTheirTime) {
     EXPECT_EQ(asked.commands.task.page, 2);
     asked.run(0.89);
     EXPECT_EQ(asked.commands.task.page, 2);
-    asked.run(0.91);  // 0.5 s after the second page's key
+    asked.run(0.91);  // 0.5 s after the key press on the second page
     EXPECT_EQ(asked.commands.task.page, -1);
     EXPECT_EQ(asked.commands.phase, 1);
     EXPECT_EQ(asked.commands.trial, 1);
@@ -126,7 +127,7 @@ TEST(Opening, ASimulatedSessionGoesOnByItselfRestsAndReplays) {
         if (row[2] == "page") pages.insert(row[3]);
     }
     EXPECT_EQ(pages, (std::multiset<std::string>{"bead.png", "Now it turns"}));
-    // the folder has the picture, under the name in its task
+    // the folder contains the picture under the name used in its task
     EXPECT_TRUE(std::filesystem::exists(result.folder + "/page-1-bead.png"));
     EXPECT_NE(testing::read_file(result.folder + "/task.yaml").find("page-1-bead.png"),
               std::string::npos);

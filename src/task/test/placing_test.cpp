@@ -1,4 +1,4 @@
-// Tests bodies that states place, hold, release, remove and exchange.
+// Tests states that place, hold, release, remove and exchange bodies.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -15,14 +15,14 @@ using session::Mistake;
 constexpr double kTick = 1e-3;
 constexpr double kGravity = 9.81;
 
-/// A state of 0.1 s that leads to another, or out of the trial.
+/// Returns a state that lasts 0.1 s and leads to another state or to the end of the trial.
 std::string state(const std::string& name, const std::string& next, const std::string& more) {
     return "    - { name: " + name + ", exits: [{ when: time, after_s: 0.1, " + next + " }]" +
            more + " }\n";
 }
 
-/// Frames of the first trial of an experiment with these states, except the session's first, in
-/// which no state has placed anything yet.
+/// Returns the frames of the first trial of an experiment with these states, except the first frame
+/// of the session, in which no state has placed anything yet.
 std::vector<frame::Frame> frames_of(session::Files& files, const std::string& states) {
     files.experiment = "scene: scene.yaml\nhand: { centre_mm: [0, 0, 220] }\ntask:\n  states:\n" +
                        states + "  blocks: [{ name: all, repeats: 2 }]\n";

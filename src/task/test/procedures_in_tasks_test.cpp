@@ -1,5 +1,5 @@
-// Tests procedures in experiment files: shares follow from the answers of observers whose answers
-// follow a psychometric function.
+// Tests procedures in experiment files: the shares must follow from the answers of observers with a
+// known psychometric function.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,8 @@ namespace {
 
 using session::Mistake;
 
-/// A task that asks whether the display is rotated (y, n), with two procedures of different kinds.
+/// A task that asks whether the display is rotated (y or n), with two procedures of different
+/// kinds.
 const char* const kThresholds = R"(title: Thresholds
 scene: scene.yaml
 hand: { centre_mm: [0, 0, 120] }
@@ -67,7 +68,7 @@ struct Answered {
     Attempt attempt;
 };
 
-/// Answers a director's questions at once, until it stops or `most` trials are over.
+/// Answers the director's questions at once, until the director stops or `most` trials are over.
 std::vector<Answered> answer(const session::Plan& plan, const std::vector<Attempt>& done,
                              Random& observer, size_t most = 100000) {
     test::RestingHand hand(plan, done);
@@ -105,7 +106,7 @@ TEST(ProceduresInTasks, FindTheThresholdInMixedTrialsOfNoMoreThanTheyNeed) {
     std::map<std::string, std::vector<double>> shares;
     for (const Answered& a : answers) shares[a.procedure].push_back(a.share);
     EXPECT_EQ(shares["right"].size(), 60u);
-    EXPECT_LT(shares["left"].size(), 200u);  // 40 reversals take fewer trials
+    EXPECT_LT(shares["left"].size(), 200u);  // fewer trials are needed for 40 reversals
     EXPECT_EQ(shares[""], std::vector<double>(10, 0.0));
     for (const char* name : {"left", "right"}) {
         const auto& levels = shares[name];
@@ -116,7 +117,7 @@ TEST(ProceduresInTasks, FindTheThresholdInMixedTrialsOfNoMoreThanTheyNeed) {
         EXPECT_LE(*std::max_element(levels.begin(), levels.end()), 1);
         EXPECT_GE(*std::min_element(levels.begin(), levels.end()), 0);
     }
-    // mixed: both occur in the first twenty trials
+    // the procedures are mixed, so both occur in the first twenty trials
     int lefts = 0;
     for (size_t i = 0; i < 20; ++i) lefts += answers[i].procedure == "left";
     EXPECT_GT(lefts, 0);

@@ -1,4 +1,5 @@
-// Tests ratings: what is typed or pointed at becomes a number of the trial, in tables and formulas.
+// Tests ratings: an answer that is typed or pointed at becomes a number of the trial, in tables and
+// in formulas.
 #include "task/file/rating.h"
 
 #include <gtest/gtest.h>
@@ -58,10 +59,10 @@ double typed(const char* keys, const Question& question) {
 TEST(Rating, IsTyped) {
     EXPECT_EQ(typed("7", numbers(1, 9)), 7);
     EXPECT_TRUE(std::isnan(typed("0", numbers(1, 9))));
-    EXPECT_EQ(typed("05", numbers(1, 9)), 5);  // 0 is taken back
+    EXPECT_EQ(typed("05", numbers(1, 9)), 5);  // the 0 is discarded
     EXPECT_TRUE(std::isnan(typed("5", numbers(0, 100))));
     EXPECT_EQ(typed("5\r", numbers(0, 100)), 5);
-    EXPECT_EQ(typed("57", numbers(0, 100)), 57);  // no other digit could follow
+    EXPECT_EQ(typed("57", numbers(0, 100)), 57);  // no further digit could follow
     EXPECT_EQ(typed("100", numbers(0, 100)), 100);
     EXPECT_EQ(typed("6\b42", numbers(0, 100)), 42);
     EXPECT_EQ(typed("2.5\r", numbers(0, 1e6, false)), 2.5);
@@ -73,7 +74,7 @@ TEST(Rating, IsTyped) {
     EXPECT_EQ(typed("15", numbers(12, 90)), 15);
     EXPECT_TRUE(std::isnan(typed("abc\r", numbers(0, 100))));
     EXPECT_EQ(typed("12345678901\r", numbers(0, 1e8)), 12345678);
-    EXPECT_EQ(typed("72", numbers(1, 9)), 7);  // later keys are ignored
+    EXPECT_EQ(typed("72", numbers(1, 9)), 7);  // further keys are ignored
     Rating rating;
     rating.press('4', numbers(0, 100));
     EXPECT_EQ(rating.shown(), 4);
@@ -113,7 +114,7 @@ TEST(Rating, ByMouseIsTheFirstClickOnTheLine) {
     EXPECT_EQ(rating.answer(), 3);
 }
 
-/// Runs the director, with the hand at `p_WH`, and presses the keys one after the other.
+/// Runs the director with the hand at `p_WH`, pressing the keys one after another.
 std::vector<frame::TaskFrame> run(const session::Plan& plan, const std::string& keys,
                                   const Vec3& p_WH = {0, 0, 0.12}) {
     test::RestingHand hand(plan, {}, p_WH);

@@ -1,4 +1,5 @@
-// Tests that the measurement of a trial's reach is read back unchanged from trial-list.csv.
+// Tests that the plan for measuring a trial's reach is unchanged when it is read back from
+// trial-list.csv.
 #include "task/plan/reach_plan.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Tests the values of expressions over recorded frames.
+// Tests the values of expressions computed from recorded frames.
 #include "task/run/recorded.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,8 @@ TEST(RecordedValue, OfAHandHasItsOwnGrip) {
     now.fingers.resize(4);
     const double x[] = {-0.02, 0.02, 0.08, 0.12};
     for (size_t i = 0; i < 4; ++i) now.fingers[i].p_WP = {x[i], 0, 0};
-    // each finger presses the block, body 0, at its side; normals point from the block to the proxy
+    // each finger presses one side of the block, which is body 0; the normals point from the block
+    // to the proxy
     const double pressed[] = {2, 2.4, 3, 3};
     for (int i = 0; i < 4; ++i) {
         frame::ContactFrame contact;

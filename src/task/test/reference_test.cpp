@@ -1,5 +1,4 @@
-// Tests that every key of a file is described in visit(), and that docs/reference.md agrees with
-// visit().
+// Tests that visit() describes every key of a file, and that docs/reference.md agrees with visit().
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -34,7 +33,7 @@ struct Key {
     std::string bounds;
     std::string what;
     std::string preset;                ///< the default
-    std::vector<std::string> kinds{};  ///< kinds of the struct that have the key
+    std::vector<std::string> kinds{};  ///< kinds of the struct for which the key exists
 
     bool same(const Key& other) const {
         return name == other.name && type == other.type && bounds == other.bounds &&
@@ -66,7 +65,7 @@ std::string link_to(const std::string& heading) {
     return fmt::format("[{}](#{})", heading.substr(heading.rfind('.') + 1), anchor);
 }
 
-/// Copies of a struct, one for each of its kinds, with the kind in words.
+/// Returns copies of a struct, one of each kind, together with the kind in words.
 template <class Struct>
 std::vector<std::pair<std::string, Struct>> each_kind_of(const Struct& value) {
     std::vector<std::pair<std::string, Struct>> out;
@@ -79,31 +78,33 @@ std::vector<std::pair<std::string, Struct>> each_kind_of(const Struct& value) {
     return out;
 }
 
-/// The page: a section for each struct, with links from the sections of structs that contain it.
+/// The reference page, which has a section for each struct. The sections of structs that contain
+/// another struct link to its section.
 class Page {
   public:
     std::string text;
 
-    /// Sets the heading of the struct's section, in place of the first key that refers to it.
+    /// Sets the heading of the struct's section, which otherwise is the first key that refers to
+    /// the struct.
     template <class Struct>
     void name(const std::string& heading) {
         headings_[typeid(Struct)] = heading;
     }
-    /// Adds a section that is not within another one.
+    /// Adds a section at the top level.
     template <class Struct>
     void part(const std::string& heading, const std::string& about) {
         text += fmt::format("## {}\n\n{}\n\n", heading, about);
         write(Struct{}, heading);
     }
-    /// Registers a struct that has a part.
+    /// Notes that a struct has a part of its own.
     template <class Struct>
     void has_part(const std::string& heading) {
         name<Struct>(heading);
         written_.insert(typeid(Struct));
     }
 
-    /// A link to the struct's section, which is written after the current one if it does not exist
-    /// yet.
+    /// Returns a link to the struct's section. If this section does not exist yet, it will be
+    /// written after the current section.
     template <class Struct>
     std::string section(const Struct& value, const std::string& by_key) {
         const std::string heading = headings_.try_emplace(typeid(Struct), by_key).first->second;
@@ -125,7 +126,7 @@ class Page {
     std::vector<std::function<void()>> waiting_;
 };
 
-/// Lists the keys of one struct, as a visitor.
+/// A visitor that lists the keys of a struct.
 class Lister {
   public:
     Lister(Page& page, std::string path) : page_(page), path_(std::move(path)) {}
@@ -206,7 +207,7 @@ class Lister {
     void operator()(std::string_view name, std::vector<Struct>&, Field field = {}) {
         add(name, "list of " + page_.section(Struct{}, inner(name)), field, Node{});
     }
-    /// A value that may be either a mere list or a mapping is described as a mapping.
+    /// A value that can be either just a list or a mapping is described as a mapping.
     static bool is_list(std::string_view) { return false; }
 
   private:
@@ -303,7 +304,7 @@ std::string tables() {
     return page.text;
 }
 
-/// The text before the tables is not generated.
+/// Only the tables are generated, not the text before them.
 TEST(Reference, HasEachKeyOfFiles) {
     const std::string page = testing::read_file(kFile);
     const std::string made = page.substr(0, page.find("## Experiment")) + tables();

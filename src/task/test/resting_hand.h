@@ -1,5 +1,5 @@
-// Runs a task's director by itself, tick after tick: one hand rests, and nothing moves in the
-// world.
+// Runs the director of a task by itself, tick after tick, while one hand rests and nothing moves in
+// the world.
 #pragma once
 
 #include <vector>
@@ -26,7 +26,7 @@ struct RestingHand {
         commands.task.reserve({last.bodies.size()});
     }
 
-    /// What the director commands in the next tick.
+    /// Runs the next tick and returns the director's commands.
     const frame::Commands& tick() {
         last.task = commands.task;
         commands.clear();

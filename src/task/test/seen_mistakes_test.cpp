@@ -1,4 +1,4 @@
-// Tests the error message for every mistake in the keys for what a person sees.
+// Tests the error message for every mistake in the keys that determine what a person sees.
 #include <gtest/gtest.h>
 
 #include "session/test/reaches.h"

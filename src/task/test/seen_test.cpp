@@ -1,5 +1,5 @@
-// Tests what a person sees, state by state: what is hidden, held, late or shaken, how things look,
-// and the texts with their numbers.
+// Tests what a person sees in each state: which things are hidden, held, late or shaken, how things
+// look, and the texts with their numbers.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ struct Told {
     std::string folder;
 };
 
-/// Runs the files' session, which must replay exactly.
+/// Runs the session of the files, which must replay exactly.
 Told tell(session::Files& files) {
     const session::RunResult result = files.run(session::make_plan(files.request()));
     EXPECT_EQ(result.fault, "");
@@ -67,7 +67,7 @@ TEST(Seen, AStateHidesCursorObjectAndBodies) {
         if (frame.phase == kReach) {
             EXPECT_EQ(frame.task.targets.size(), frame.task.outcome < 0 ? 1u : 0u);
         }
-        // between trials everything stays as the last state had it
+        // between trials, everything stays as it was in the last state
         EXPECT_EQ(finger_is_displayed(frame), begun != kReach);
         EXPECT_EQ(frame::is_displayed(frame, 0), begun != kReach);
         EXPECT_TRUE(frame::is_displayed(frame, 1));
@@ -94,7 +94,7 @@ TEST(Seen, AListOfTargetsIsWrittenAsItWas) {
     files.replace("show: [target]", "show: { targets: [target], cursor: held }");
     const std::string text = written();
     EXPECT_NE(text.find("targets:"), std::string::npos);
-    // the written text can be read back
+    // reading the written text must give the same task
     Task again;
     Diagnostics diagnostics;
     read_fields(again, parse_yaml(text, "task.yaml"), diagnostics);
@@ -120,7 +120,8 @@ TEST(Seen, AHeldCursorStaysWhereItWasWhenTheStateBegan) {
         if (frame.phase != kEnd) continue;
         if (told.frames[i - 1].phase != kEnd) {
             ++ends;
-            held = frame::mapped_proxy(told.frames[i - 1], 0);  // with the perturbation then
+            held = frame::mapped_proxy(told.frames[i - 1],
+                                       0);  // includes the perturbation at that time
         }
         EXPECT_TRUE(finger_is_displayed(frame));
         EXPECT_EQ(frame::displayed_proxy(frame, 0).p, held.p);
@@ -140,7 +141,7 @@ TEST(Seen, ADelayedCursorIsWhereItWasThatLongAgo) {
         if (frame.task.displaced.empty()) continue;
         ASSERT_EQ(frame.task.visual.size(), 1u);
         const double delay = frame.task.visual[0].delay;
-        EXPECT_NEAR(delay, 0.08 * frame.task.share, 1e-12);  // half in the first trial of the ramp
+        EXPECT_NEAR(delay, 0.08 * frame.task.share, 1e-12);  // half in the ramp's first trial
         const auto ticks = static_cast<size_t>(std::lround(delay / 1e-3));
         delays.insert(static_cast<int>(ticks));
         EXPECT_EQ(frame::displayed_proxy(frame, 0).p,
@@ -166,7 +167,7 @@ TEST(Seen, NoiseShakesTheCursorAsTheSeedHasIt) {
         const Vec3 whole = shake / frame.task.share;
         if (shakes.empty() || (whole - shakes.back()).norm() > 1e-9) shakes.push_back(whole);
     }
-    ASSERT_GT(shakes.size(), 20u);  // 60 a second
+    ASSERT_GT(shakes.size(), 20u);  // noise is drawn 60 times a second
     double x = 0;
     double y = 0;
     for (const Vec3& shake : shakes) {
@@ -203,8 +204,8 @@ TEST(Seen, ConditionsAndStatesColourAndSizeThings) {
     EXPECT_EQ(conditions.size(), 2u);
 }
 
-/// In one condition, the cursor and the target are hidden during the reach, and the block is hidden
-/// throughout.
+/// In one of the conditions, the cursor and the target are hidden during the reach, and the block
+/// is hidden throughout.
 TEST(Seen, ConditionsHideThings) {
     session::Files files;
     files.keep_first_block();
@@ -215,7 +216,7 @@ TEST(Seen, ConditionsHideThings) {
     files.replace("show: [target]\n",
                   "show: [target]\n      look: [{ finger: index, colour: \"#ff0000\" }]\n");
     const session::Plan plan = session::make_plan(files.request());
-    std::map<std::pair<int, int>, int> hidden;  // by condition and phase
+    std::map<std::pair<int, int>, int> hidden;  // keyed by condition and phase
     for (const frame::Frame& frame : tell(files).frames) {
         if (frame.phase == 0 || frame.task.outcome >= 0) continue;
         const int condition = plan.task->trials[static_cast<size_t>(frame.trial - 1)].condition;
@@ -289,7 +290,7 @@ TEST(Seen, TextsNameVariablesDrawsAndWhatIsMeasured) {
             const Trial& trial = plan.task->trials[static_cast<size_t>(frame->trial - 1)];
             EXPECT_EQ(texts.at(0), fmt::format("Score {}, wait {:.3f}", 10 * frame->trial - 5,
                                                trial.draws.at(0) / 1000));
-            EXPECT_NEAR(finite_number(texts.at(1)).value(), z, 5e-5 + 1e-3);  // within a tick
+            EXPECT_NEAR(finite_number(texts.at(1)).value(), z, 5e-5 + 1e-3);  // to within one tick
         }
         z = frame->fingers.at(0).p_WH.z();
     }

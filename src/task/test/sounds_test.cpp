@@ -1,5 +1,5 @@
-// Tests a task's sounds: in which ticks they begin and end, and the error for every mistake in
-// their keys.
+// Tests the sounds of a task: the ticks in which they begin and end, and the error message for
+// every mistake in their keys.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -23,8 +23,8 @@ const char* const kSounds = R"(  sounds:
   states:
 )";
 
-/// Reaches that begin with a tone and end with another, with a hum from first to last, and a wind
-/// throughout.
+/// Reaches that begin with one tone and end with another, with a hum from the beginning to the end
+/// of the trial, and the sound of wind throughout the session.
 struct WithSounds : session::Files {
     WithSounds() {
         replace("  states:\n", kSounds);
@@ -49,7 +49,7 @@ TEST(Sounds, BeginInTheTickInWhichTheirStateBeginsOrTheirExitIsTaken) {
         if (frame->sequence == 0) wanted.insert({kWind, 1});
         if (frame->phase == 1 && phase != 1) wanted.insert({kHum, 1});
         if (frame->phase == 2 && phase != 2) wanted.insert({kGo, 1});
-        // the trial's last tick still belongs to its last state
+        // the last tick of the trial still belongs to its last state
         if (frame->task.outcome >= 0) wanted.insert({{kGood, 1}, {kHum, 0}});
         std::set<std::pair<int, int>> found;
         for (const frame::SoundFrame& sound : frame->task.sounds) {

@@ -1,4 +1,4 @@
-// Tests the error message for every mistake that a task's file can contain.
+// Tests the error message for every mistake that the task in an experiment file can contain.
 #include <gtest/gtest.h>
 
 #include "session/test/reaches.h"

@@ -1,4 +1,5 @@
-// Tests tasks: states and their exits, perturbations in the file, sessions that are resumed.
+// Tests tasks: states and their exits, perturbations given in the file, and sessions that are
+// resumed.
 #include "task/file/task.h"
 #include "base/number.h"
 
@@ -21,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A column of a session's trials.csv.
+/// Returns a column of a session's trials.csv.
 std::vector<std::string> column(const std::string& session, const std::string& name) {
     const CsvFile trials(session + "/trials.csv");
     std::vector<std::string> out;
@@ -33,7 +34,7 @@ analysis::SessionFigures finish(const session::RunResult& result) {
     return analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
 }
 
-/// Runs the plan with only some of its trials, as a session in `out`.
+/// Runs only some of the plan's trials, as a session in the folder `out`.
 session::Recorded run_some(session::Plan& plan, const std::shared_ptr<const TaskPlan>& some,
                            const std::string& out) {
     plan.task = some;
@@ -54,7 +55,7 @@ TEST(Task, RunsItsTrialsRecordsThemAndReplaysToTheBit) {
     EXPECT_EQ(column(result.folder, "outcome"), std::vector<std::string>(9, "reached"));
     const auto number = column(result.folder, "trial_num");
     for (size_t i = 0; i < 9; ++i) EXPECT_EQ(number[i], number_text(i + 1));
-    // the file's hand does not adapt
+    // the simulated hand of the file does not adapt
     const auto hand = column(result.folder, "hand_angle_deg");
     const auto shown = column(result.folder, "shown_angle_deg");
     for (size_t i = 0; i < 9; ++i) {
@@ -68,7 +69,7 @@ TEST(Task, RunsItsTrialsRecordsThemAndReplaysToTheBit) {
     EXPECT_EQ(events["marker"], 9);
     EXPECT_EQ(events["outcome"], 9);
     EXPECT_EQ(events["trial"], 9);
-    EXPECT_EQ(events["perturbation"], 2 * 6);  // on and off
+    EXPECT_EQ(events["perturbation"], 2 * 6);  // start and end
     EXPECT_GT(events["message"], 0);
     EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
     EXPECT_EQ(read_csv(result.folder + "/trial-list.csv").size(), 10u);
@@ -77,7 +78,7 @@ TEST(Task, RunsItsTrialsRecordsThemAndReplaysToTheBit) {
 TEST(Task, AChannelPushesBackByItsStiffnessTimesTheDeviation) {
     session::Files files;
     files.replace("kind: visual_clamp, perturb: clamp", "kind: force_channel, perturb: channel");
-    // the hand goes astray, 10 mm to the side
+    // the hand deviates to the side by 10 mm
     files.replace("simulated_hand: [{ duration_s: 0.2, reach: target }]",
                   "simulated_hand: [{ duration_s: 0.2, reach: target, move_mm: [10, 10, 0] }]");
     const session::Plan plan = session::make_plan(files.request());
@@ -88,7 +89,8 @@ TEST(Task, AChannelPushesBackByItsStiffnessTimesTheDeviation) {
     while (const frame::Frame* frame = log.next()) {
         if (frame->trial != 8 || frame->task.loads.empty()) continue;
         ++pushed;
-        const frame::FingerFrame& finger = frame->fingers[0];  // condition right: along x
+        // condition right: the movement is along x
+        const frame::FingerFrame& finger = frame->fingers[0];
         const Vec3 off(0, finger.p_WH.y(), finger.p_WH.z() - 0.12);
         const Vec3 across(0, finger.v_WH.y(), finger.v_WH.z());
         EXPECT_LT((frame->task.loads[0].force_W + 1000 * off + 5 * across).norm(), 1e-12);
@@ -100,7 +102,8 @@ TEST(Task, AChannelPushesBackByItsStiffnessTimesTheDeviation) {
     EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
 }
 
-/// The block's frames in the first trial, while it falls freely for 0.2 s through a field.
+/// Returns the block's frames in the first trial, in which the block falls freely through a field
+/// for 0.2 s.
 std::vector<frame::BodyFrame> fall_through(const std::string& field) {
     session::Files files;
     files.scene.replace(files.scene.find("position_mm: [0, 0, 20]"), 23,
@@ -118,7 +121,7 @@ std::vector<frame::BodyFrame> fall_through(const std::string& field) {
     std::vector<frame::BodyFrame> out;
     recording::RawLogReader log(result.folder + "/raw.log");
     while (const frame::Frame* frame = log.next()) {
-        // in the trial's last tick nothing is perturbed any more
+        // no perturbation acts in the last tick of the trial
         if (frame->trial == 1 && frame->task.outcome < 0) out.push_back(frame->bodies[1]);
     }
     EXPECT_GT(out.size(), 190u);
@@ -129,32 +132,33 @@ constexpr double kMass = 0.1;
 constexpr double kGravity = 9.81;
 
 TEST(Task, ABodyFallsThroughAViscousFieldTowardItsTerminalVelocity) {
-    const double b = 1;  // reaches terminal velocity after about 0.1 s
+    const double b = 1;  // the block reaches terminal velocity after about 0.1 s
     double t = 0;
     for (const frame::BodyFrame& block : fall_through("kind: viscous, damping_Ns_m: 1")) {
         t += 1e-3;
         const double closed = -kMass * kGravity / b * (1 - std::exp(-b * t / kMass));
-        EXPECT_NEAR(block.v_WB.z(), closed, 0.006);  // a tick changes v by 10 mm/s at first
+        EXPECT_NEAR(block.v_WB.z(), closed, 0.006);  // at first, v changes by 10 mm/s per tick
         EXPECT_NEAR(block.v_WB.x(), 0, 1e-12);
     }
 }
 
 TEST(Task, ABodyFallsThroughACurlFieldOnACycloid) {
-    // m a = m g + b e x v turns v - d at the rate b / m, where the drift d solves m g + b e x d = 0
+    // m a = m g + b e x v rotates v - d at the rate b / m, where the drift d satisfies m g + b e x
+    // d = 0
     const double rate = 2 / kMass;
     const double drift = kGravity / rate;
     double t = 0;
     for (const frame::BodyFrame& block :
          fall_through("kind: curl, axis: [0, 1, 0], damping_Ns_m: 2")) {
         t += 1e-3;
-        // e = y: dv_x = rate v_z, dv_z = -g - rate v_x
+        // for e = y: dv_x = rate v_z, dv_z = -g - rate v_x
         const double v_x = -drift * (1 - std::cos(rate * t));
         const double v_z = -drift * std::sin(rate * t);
-        EXPECT_NEAR(block.v_WB.x(), v_x, 0.04 * drift);  // a tick turns v by 0.02 rad
+        EXPECT_NEAR(block.v_WB.x(), v_x, 0.04 * drift);  // v turns by 0.02 rad per tick
         EXPECT_NEAR(block.v_WB.z(), v_z, 0.04 * drift);
         EXPECT_NEAR(block.v_WB.y(), 0, 1e-12);
     }
-    EXPECT_GT(rate * t, 3);  // half a turn
+    EXPECT_GT(rate * t, 3);  // about half a turn
 }
 
 TEST(Task, DoesAbortedTrialsAgain) {
@@ -208,8 +212,8 @@ task:
         }
     }
     EXPECT_GT(farthest, 0.03);
-    EXPECT_EQ(placed, 3);  // before each trial
-    EXPECT_LT(force, 8);   // no body is pushed out of another
+    EXPECT_EQ(placed, 3);  // once before each trial
+    EXPECT_LT(force, 8);   // the block is not pushed out of another body
     EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
 }
 
@@ -241,7 +245,7 @@ TEST(Task, ConditionsPutObjectsInPlacesOfTheirOwn) {
 
 TEST(Task, ASimulatedHandThatStaysInTheWayDoesNotFillTheDisk) {
     session::Files files;
-    // the block of the second trial is placed where the hand is at the end of the first
+    // in the second trial, the block is placed where the hand is at the end of the first trial
     files.replace("    - name: far\n",
                   "    - name: far\n      places: [{ body: block, position_mm: [50, 0, 120] }]\n");
     files.replace("    - { name: before, kind: baseline, repeats: 1 }\n",
@@ -259,7 +263,7 @@ TEST(Task, GoesOnAtTheRightTrialAfterAnInterruption) {
     const session::RunResult whole = files.run(plan);
     finish(whole);
     for (const int ticks : {5, 700, 1234, 2000}) {
-        // a killed session leaves a log that is cut off
+        // a session that is killed leaves a truncated log
         const session::RunResult cut = files.run(session::make_plan(files.request()));
         recording::RawLogReader all(cut.folder + "/raw.log");
         const recording::LogHead head = all.head();
@@ -321,8 +325,8 @@ TEST(Task, AKeyEndsAState) {
     EXPECT_EQ(plan.task->outcomes.at(static_cast<size_t>(std::max(0, outcome))).name, "reached");
 }
 
-/// A director of these files' task, called tick by tick: one finger is where the block belongs, and
-/// the block is elsewhere.
+/// A director of the task in these files, called tick by tick. One finger is where the block
+/// belongs, and the block is somewhere else.
 struct Asked {
     explicit Asked(session::Files& files) : plan(session::make_plan(files.request())) {
         last.fingers.resize(1);
@@ -365,7 +369,7 @@ TEST(Task, ATriggerEndsAStateAndComesOnceASecondToASimulatedSession) {
         asked.director.trigger(code);
         return asked.tick().phase;
     };
-    EXPECT_EQ(phase_after(9), kBetween);  // the finger is where the block belongs
+    EXPECT_EQ(phase_after(9), kBetween);  // the finger is in the block's place
     asked.last.fingers[0].p_WP = asked.handles[0].p_WH;
     EXPECT_EQ(phase_after(0), 1);
     EXPECT_EQ(phase_after(8), 1);  // another code
@@ -397,7 +401,7 @@ TEST(Task, ATrialThatIsSkippedBeforeItBeginsHasARowAndIsNotDoneAgain) {
     const frame::Commands& skipped = asked.tick();
     EXPECT_EQ(skipped.trial, 1);
     EXPECT_EQ(skipped.task.outcome, asked.plan.task->skipped);
-    EXPECT_NE(skipped.phase, kBetween);  // frames between trials belong to no trial
+    EXPECT_NE(skipped.phase, kBetween);  // frames between trials do not belong to a trial
     EXPECT_EQ(asked.tick().trial, 2);
 }
 
@@ -408,7 +412,7 @@ TEST(ShippedTask, RotatesWhatIsShownAboutEachRoundsAxisAndReplaysToTheBit) {
     request.participant = "S02";
     session::Plan plan = session::make_plan(request);
     const auto some = std::make_shared<TaskPlan>(*plan.task);
-    // keeps the beginning of each block of the first two rounds
+    // keep only the beginning of each block in the first two rounds
     std::erase_if(some->trials, [](const Trial& trial) {
         return trial.number > 8 || trial.in_block > (trial.block == 1 ? 8 : 2);
     });
@@ -453,7 +457,8 @@ TEST(ShippedTask, CarriesABlockWhoseInertiaAndNotWeightIsThreefold) {
         const Vec3 a = (block.v_WB - v) / 1e-3;
         v = block.v_WB;
         if (frame->phase != 3) continue;
-        // the fingers' contact forces are m a, with the m of each axis, less the unchanged weight
+        // the fingers' contact forces are m a, with a different m for each axis, minus the
+        // unchanged weight
         Vec3 force = Vec3::Zero();
         for (const frame::FingerFrame& finger : frame->fingers) force -= finger.f_contact_W;
         const bool heavy = !frame->task.properties.empty();

@@ -1,5 +1,5 @@
-// Tests that the program that decides about the next attempt is asked once for each attempt, and
-// that late answers are ignored.
+// Tests that the program that decides about the next attempt is asked exactly once for each
+// attempt, and that late answers are ignored.
 #include "task/run/trial_control.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST(TrialControl, OnTheVirtualClockTheDirectorWaits) {
     EXPECT_EQ(answer->next, 3);
 }
 
-/// In real time, and even if nobody ever answers.
+/// This must hold in real time, even if nobody ever answers.
 TEST(TrialControl, NoTickAllocatesOrWaits) {
     session::Files files;
     TrialControl between(0.1, false);

@@ -1,4 +1,4 @@
-// Tests the order of trials, and which of them are repeated.
+// Tests the order of trials, and which trials are repeated.
 #include "task/plan/trials.h"
 #include "base/number.h"
 
@@ -89,7 +89,7 @@ TEST(Order, IsOfEachParticipantAndTheSameAgain) {
     for (const char* participant : {"S01", "S02", "S03", "S04", "S05", "S06", "S07", "S08"})
         different.insert(conditions(participant));
     EXPECT_GT(different.size(), 3u);
-    // a curve over trials has the same kinds of trial for everyone
+    // in a curve over trials, the kinds of trial are the same for all participants
     const auto kinds = [&](const char* participant) {
         std::vector<TrialKind> out;
         const session::Plan plan = session::make_plan(files.request(1, participant));
@@ -124,7 +124,7 @@ TEST(TrialQueue, DoesTrialsAgainWhereThePolicySays) {
     EXPECT_EQ(done(Redo::never, 9), "01234");
     EXPECT_EQ(done(Redo::next, 1), "001234");
     EXPECT_EQ(done(Redo::end_of_block, 1), "012034");
-    EXPECT_EQ(done(Redo::end_of_block, 9), "0120034");  // three attempts and no more
+    EXPECT_EQ(done(Redo::end_of_block, 9), "0120034");  // at most three attempts
     EXPECT_EQ(done(Redo::random, 1).substr(done(Redo::random, 1).size() - 2), "34");
     EXPECT_EQ(done(Redo::random, 1), done(Redo::random, 1));
 }
@@ -139,10 +139,10 @@ TEST(TrialQueue, GoesThroughWhatWasDoneThoughSomeOfItIsLost) {
         queue.finish(redo);
     };
     made(0, 1, false);
-    made(2, 1, false);  // the end of the second trial is lost
+    made(2, 1, false);  // the end of the second trial is missing
     EXPECT_EQ(queue.trial(), 1);
-    made(3, 2, true);  // the first attempt at it was interrupted by a pause
-    made(3, 3, true);  // that was the last attempt
+    made(3, 2, true);  // the first attempt at this trial was interrupted by a pause
+    made(3, 3, true);  // the last attempt allowed
     EXPECT_EQ(queue.trial(), 1);
     made(1, 1, false);
     EXPECT_TRUE(queue.empty());

@@ -18,7 +18,7 @@ double distance(const Camera& camera) {
     return (camera.position - camera.look_at).norm();
 }
 
-/// The position of a point in the picture: x right and y up, from -1 to 1.
+/// The position of a point in the picture; x points right and y up, both from -1 to 1.
 Eigen::Vector2d seen(const Camera& camera, const Vec3& p_W) {
     const Eigen::Vector4d clip = projection(camera, 1.5, 0.01, 10) * p_W.homogeneous();
     return clip.head<2>() / clip.w();
@@ -68,7 +68,7 @@ TEST(Camera, AnOrbitOverTheTopStopsThereAndRemembersWhereItCameFrom) {
 TEST(Camera, APanMovesTheSceneWithTheMouse) {
     const Camera camera = in_front();
     const Camera moved = panned(camera, 0.1, 0.2);
-    // the point in the middle has moved by a tenth of the height to the right and a fifth up
+    // the point in the middle moves by a tenth of the picture's height to the right and a fifth up
     const Eigen::Vector2d at = seen(moved, camera.look_at);
     EXPECT_NEAR(at.x(), 2 * 0.1 / 1.5, 1e-12);
     EXPECT_NEAR(at.y(), 2 * 0.2, 1e-12);

@@ -5,9 +5,9 @@
 namespace dihaptic::view::colours_test {
 namespace {
 
-/// Colours as people without red cones (protanopia) or green cones (deuteranopia) see them:
-/// Machado, Oliveira, Fernandes, "A physiologically-based model for simulation of color vision
-/// deficiency" (2009), severity 1.
+/// Colours as seen by people without red cones (protanopia) or green cones (deuteranopia). Machado,
+/// Oliveira, Fernandes, "A physiologically-based model for simulation of color vision deficiency"
+/// (2009), severity 1.
 Mat3 without_red() {
     Mat3 m;
     m << 0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116,
@@ -20,7 +20,7 @@ Mat3 without_green() {
     return m;
 }
 
-/// CIE 1976 L*a*b* of linear sRGB, white D65.
+/// CIE 1976 L*a*b* coordinates of a linear sRGB colour, with white point D65.
 Vec3 lab(const Vec3& rgb) {
     Mat3 m;
     m << 0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505;

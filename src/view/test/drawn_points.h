@@ -1,4 +1,4 @@
-// Draws points of the world as small black balls, and finds them in a picture.
+// Draws points of the world as small black balls, and locates them in a picture.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ struct Balls {
     scene::Scene scene;
     frame::Frame frame;
 
-    /// Adds a ball of this radius at the point [m].
+    /// Adds a ball with this radius at a point [m].
     void add(const Vec3& p_W, double radius = 0.0025) {
         scene::Body ball;
         ball.name = "ball " + number_text(scene.bodies.size());
@@ -26,7 +26,7 @@ struct Balls {
         scene.bodies.push_back(ball);
         frame.bodies.push_back({ball.pose()});
     }
-    /// The frame with all balls moved out of sight.
+    /// The frame with all balls moved out of view.
     frame::Frame away() const {
         frame::Frame out = frame;
         for (frame::BodyFrame& body : out.bodies) body.X_WB.p = {0, 0, -50};
@@ -34,8 +34,9 @@ struct Balls {
     }
 };
 
-/// The middle of what a picture shows, and the empty one does not, within 12 pixels of a point, in
-/// the colour `channel` [pixels from the upper left]; far off if there is nothing.
+/// The middle of the pixels that differ between a picture and the empty picture, within 12 pixels
+/// of the point `around` and in one colour channel [pixels from the upper left]. Far off if no
+/// pixels differ.
 inline Eigen::Vector2d middle_of(const Image& picture, const Image& empty, int channel,
                                  const Eigen::Vector2d& around) {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();

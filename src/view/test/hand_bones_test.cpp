@@ -6,7 +6,7 @@
 
 namespace dihaptic::view::hand_bones_test {
 
-constexpr size_t kThumbTip = 4, kIndexTip = 8;  // indices of the bones that end at the tips
+constexpr size_t kThumbTip = 4, kIndexTip = 8;  // indices of the bones that end at the fingertips
 
 Vec3 random_place(std::mt19937& random, double half) {
     std::uniform_real_distribution<double> draw(-half, half);
@@ -27,7 +27,7 @@ TEST(HandBones, EndWhereThumbAndIndexTouch) {
         if ((index - thumb).norm() < 0.005) continue;
         const std::vector<Bone> bones = hand_bones(thumb, index);
         ASSERT_EQ(bones.size(), 21u);
-        // the bones end outside the points by the thickness of a pad
+        // each bone ends outside its point, by the thickness of the finger pad
         const Vec3 a = (index - thumb).normalized();
         EXPECT_LT((bones[kThumbTip].to - (thumb - 0.006 * a)).norm(), 1e-6);
         EXPECT_LT((bones[kIndexTip].to - (index + 0.006 * a)).norm(), 1e-6);
@@ -51,7 +51,7 @@ TEST(HandBones, OfAFingerAreJoinedAndKeepTheirLengths) {
 
 TEST(HandBones, ComeFromThePersonAndFromAbove) {
     const std::vector<Bone> bones = hand_bones({-0.025, 0, 0.03}, {0.025, 0, 0.03});
-    EXPECT_LT(bones[0].to.y(), -0.12);  // the forearm's end
+    EXPECT_LT(bones[0].to.y(), -0.12);  // the end of the forearm
     EXPECT_GT(bones[0].to.z(), 0.09);
 }
 

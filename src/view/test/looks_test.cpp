@@ -1,4 +1,4 @@
-// Tests that a picture shows things as the Frame describes them: hidden, coloured or displaced.
+// Tests that a picture shows things as described by the Frame: hidden, coloured or displaced.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -43,7 +43,7 @@ Image picture(const scene::Scene& scene, const frame::Frame& frame) {
     return offscreen.read();
 }
 
-/// Number of pixels that differ by more than rounding.
+/// The number of pixels that differ by more than a rounding error.
 int different(const Image& a, const Image& b) {
     int count = 0;
     for (int y = 0; y < kSize; ++y) {
@@ -63,8 +63,8 @@ TEST(Looks, AHiddenBodyIsNotSeenNorItsShadow) {
     const Image whole = picture(scene, frame);
     frame.task.looks = {{1, 1, -1, 1}};
     const Image hidden = picture(scene, frame);
-    EXPECT_GT(different(whole, hidden), 1000);  // the block and its shadow
-    // a block so far below the table that neither it nor its shadow can be seen
+    EXPECT_GT(different(whole, hidden), 1000);  // pixels of the block and its shadow
+    // the block is so far below the table that neither the block nor its shadow is visible
     frame::Frame without = start(scene);
     without.bodies[1].X_WB.p = {0, 0, -0.5};
     EXPECT_LT(different(picture(scene, without), hidden), 20);

@@ -1,5 +1,5 @@
-// Tests displays: that each eye sees a thing where a pinhole camera at that eye would, by numbers
-// and in pictures.
+// Tests, numerically and in pictures, that each eye sees a thing on a display where a pinhole
+// camera at that eye would see it.
 #include "view/panes.h"
 #include "base/number.h"
 
@@ -16,8 +16,7 @@ namespace {
 constexpr int kDisplays = 20;
 constexpr int kWidth = 960, kHeight = 720;
 
-/// A display somewhere in front of the person, tilted and off to a side, in any way that a rig may
-/// be.
+/// A random display in front of the person, tilted and offset, as in any rig.
 display::Display random_display(Random& random, int i) {
     const auto vector = [&](double most) {
         return Vec3(random.uniform(-most, most), random.uniform(-most, most),
@@ -37,8 +36,9 @@ display::Display random_display(Random& random, int i) {
     return out;
 }
 
-/// Where the line from an eye to a point passes through the screen, in pixels from the picture's
-/// upper left: by similar triangles, with the mirror and the eyes' parts of the screen.
+/// Where the line from an eye to a point passes through the screen [pixels from the picture's upper
+/// left]. Computed from similar triangles, considering mirrors and the parts of the screen that
+/// belong to each eye.
 Eigen::Vector2d pinhole(const display::Display& display, bool right_eye, const Vec3& p_W) {
     const Vec3 eye = display.stereo == display::Stereo::none ? display.eyes.position
                      : right_eye                             ? display.eyes.right()
@@ -55,14 +55,14 @@ Eigen::Vector2d pinhole(const display::Display& display, bool right_eye, const V
     return {u * kWidth, (1 - v) * kHeight};
 }
 
-/// The place in the picture that a pane gives to a point, in pixels from its upper left.
+/// Where a pane draws a point in the picture [pixels from the upper left].
 Eigen::Vector2d drawn_at(const Pane& pane, const Vec3& p_W) {
     const Eigen::Vector4d clip = pane.viewpoint.clip_from_world * p_W.homogeneous();
     const double u = (clip.x() / clip.w() + 1) / 2, v = (clip.y() / clip.w() + 1) / 2;
     return {(pane.left + pane.width * u) * kWidth, (1 - pane.bottom - pane.height * v) * kHeight};
 }
 
-/// A point in front of or behind the screen whose image for each eye lies on the screen.
+/// A random point in front of or behind the screen, whose images for both eyes are on the screen.
 Vec3 random_point(Random& random, const display::Display& display) {
     const Vec3 on_screen = display.lower_left + random.uniform(0.2, 0.8) * display.right() +
                            random.uniform(0.2, 0.8) * display.up();
@@ -105,7 +105,7 @@ TEST(Panes, HaveDepthsThatGrowBehindTheScreenAndBefore) {
     }
 }
 
-/// Balls at points that are drawn apart from each other, whichever eye sees them.
+/// Balls at random points, whose images do not overlap for either eye.
 Balls balls_before(Random& random, const display::Display& display) {
     Balls out;
     std::vector<Eigen::Vector2d> taken;

@@ -1,4 +1,4 @@
-// Tests what a person points at: the body that is seen first along the line of sight.
+// Tests which body a person points at: the first one that the line of sight meets.
 #include "view/pick.h"
 
 #include <gtest/gtest.h>
@@ -33,12 +33,12 @@ TEST(Pick, FindsTheNearestAndNothingBesideIt) {
     balls.add({0, -0.1, 0}, 0.01);
     const Ray ahead = ray_through(from_the_front(), 0, 0);
     EXPECT_EQ(seen_first(balls.scene, balls.frame, ahead)->body, 1u);
-    // 20 mm above the middle of the small ball, with the large one behind it
+    // 20 mm above the middle of the small ball, so that the ray meets the large ball behind it
     const Ray above{{0, -0.5, 0.02}, Vec3::UnitY()};
     EXPECT_EQ(seen_first(balls.scene, balls.frame, above)->body, 0u);
     EXPECT_FALSE(seen_first(balls.scene, balls.frame, {{0, -0.5, 0.0505}, Vec3::UnitY()}));
     EXPECT_FALSE(seen_first(balls.scene, balls.frame, {{0, -0.5, 0}, -Vec3::UnitY()}));
-    // the ball is where the frame puts it
+    // the frame determines the position of the ball
     balls.frame.bodies[1].X_WB.p = {0, 0.3, 0};
     EXPECT_EQ(seen_first(balls.scene, balls.frame, ahead)->body, 0u);
 }
@@ -77,7 +77,7 @@ TEST(Pick, TellsWhereARayMeetsTheBody) {
     balls.add({0.01, 0.1, 0}, 0.05);
     const auto seen = seen_first(balls.scene, balls.frame, {{0.01, -0.5, 0}, Vec3::UnitY()});
     ASSERT_TRUE(seen);
-    EXPECT_NEAR((seen->p_W - Vec3(0.01, 0.05, 0)).norm(), 0, 1e-4);  // the ball is of triangles
+    EXPECT_NEAR((seen->p_W - Vec3(0.01, 0.05, 0)).norm(), 0, 1e-4);  // the ball has flat faces
 }
 
 Ray from_to(const Vec3& eye, const Vec3& p_W) {
@@ -92,7 +92,7 @@ TEST(Pick, WhatIsDraggedStaysUnderThePointer) {
     EXPECT_NEAR((*level - (beside - held)).norm(), 0, 1e-12);
     const auto up = dragged(held, from_to(eye, held), from_to(eye, above), true);
     ASSERT_TRUE(up);
-    // its height in the upright plane that faces the second line of sight
+    // the height is measured in the upright plane that faces the second line of sight
     EXPECT_NEAR((*up - (above - held)).norm(), 0, 1e-12);
 }
 

@@ -9,7 +9,7 @@
 #include "software_renderer.h"
 
 #ifdef __SANITIZE_ADDRESS__
-/// LeakSanitizer stops all threads to look at their memory, and fails at Mesa's threads.
+/// LeakSanitizer stops all threads to inspect their memory, which fails for Mesa's threads.
 extern "C" const char* __asan_default_options();   // NOLINT
 extern "C" const char* __asan_default_options() {  // NOLINT
     return "detect_leaks=0";
@@ -28,7 +28,7 @@ scene::Body box(const char* name, const Vec3& size, const Vec3& position) {
     return body;
 }
 
-/// A grey table whose top is z = 0, and bodies above it.
+/// A grey table with its top at z = 0, and bodies above it.
 scene::Scene on_table(const std::vector<scene::Body>& bodies) {
     scene::Scene scene;
     scene.bodies = {box("table", {0.6, 0.4, 0.05}, {0, 0, -0.025})};
@@ -53,7 +53,8 @@ Image picture(const scene::Scene& scene, const frame::Frame& frame, const Camera
     return offscreen.read();
 }
 
-/// Linear light of a pixel's green part, from 0 to 1, by the sRGB curve (IEC 61966-2-1).
+/// Linear light in the green channel of a pixel, from 0 to 1, according to the sRGB curve (IEC
+/// 61966-2-1).
 double light_at(const Image& image, int x, int y) {
     const double s = image.at(x, y)[1] / 255.0;
     return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
@@ -61,9 +62,10 @@ double light_at(const Image& image, int x, int y) {
 
 constexpr double kHalfTurn = std::numbers::pi;
 constexpr int kPixels = 200;
-constexpr double kSpan = 0.16;  // width of the table that its pictures show [m]
+constexpr double kSpan = 0.16;  // width of the table area shown in pictures [m]
 
-/// A camera close above the table that looks straight down: bodies higher than 40 mm are behind it.
+/// A camera close above the table that looks straight down. Bodies higher than 40 mm are behind the
+/// camera.
 Camera under(const Vec3& p_W) {
     Camera camera;
     camera.look_at = {p_W.x(), p_W.y(), 0};
@@ -72,8 +74,8 @@ Camera under(const Vec3& p_W) {
     return camera;
 }
 
-/// Ratio of the light that reaches the table around a point to that without the other bodies: by
-/// pixel, rows from far to near.
+/// Ratio of the light on the table around a point with and without the other bodies, for each
+/// pixel; rows are ordered from far to near.
 std::vector<double> shares(const scene::Scene& scene, const Vec3& around) {
     const Image image = picture(scene, start(scene), under(around), kPixels, kPixels);
     const scene::Scene bare = on_table({});
@@ -88,7 +90,7 @@ std::vector<double> shares(const scene::Scene& scene, const Vec3& around) {
 
 struct Shadow {
     Vec3 centre;      // in W
-    double softness;  // from 20 to 80 % of its depth, along x, at its left side [m]
+    double softness;  // width from 20 to 80 % of its depth, along x on its left side [m]
     double darkest;
 };
 
@@ -137,7 +139,7 @@ TEST(SceneView, TheShadowOfAFloatingBlockMovesAsTheLightHasItAndSoftens) {
     }
 }
 
-/// Under a plate the table is dark everywhere, even below the edge of another plate above it.
+/// Under a plate, the table is dark everywhere, even below the edge of another plate higher up.
 TEST(SceneView, LittleLightBleedsThroughTwoLayers) {
     const scene::Body lower = box("lower", {0.4, 0.4, 0.004}, {0, 0, 0.06});
     const Vec3 light = SceneView::light();
@@ -148,7 +150,7 @@ TEST(SceneView, LittleLightBleedsThroughTwoLayers) {
     };
     const double one = brightest({lower});
     EXPECT_LT(one, 0.4);
-    // README.md: nothing bleeds until the upper layer is four times as high as the lower one
+    // README.md: no light bleeds through until the upper layer is four times as high as the lower
     for (const auto& [height, bound] : {std::pair{0.07, 0.01}, {0.15, 0.01}, {0.25, 0.15}}) {
         const double two = brightest(
             {lower, box("upper", {0.08, 0.08, 0.004}, middle + light * (height / light.z()))});
@@ -156,11 +158,11 @@ TEST(SceneView, LittleLightBleedsThroughTwoLayers) {
     }
 }
 
-/// The table is tilted until light only grazes it.
+/// Tilts the table until the light only grazes it.
 TEST(SceneView, ATableInGrazingLightHasNoAcne) {
     const Vec3 light = SceneView::light();
     const auto look = [&](double above_horizon) {
-        // turned about x until the light is this far above the table's horizon
+        // rotates the table about x until the light is at this angle above the table's horizon
         const double full = std::atan2(light.z(), light.y());
         const double across = std::hypot(light.y(), light.z());
         scene::Scene scene = on_table({});
@@ -175,7 +177,7 @@ TEST(SceneView, ATableInGrazingLightHasNoAcne) {
         camera.position = 0.5 * n;
         camera.field_of_view = 0.3;
         const Image image = picture(scene, start(scene), camera, kPixels, kPixels);
-        // means of cells: a pixel is rounded to one of 256 steps
+        // uses means over cells of pixels, because a pixel is rounded to one of 256 steps
         constexpr int kCell = 8;
         double least = 1;
         double most = 0;
@@ -195,7 +197,7 @@ TEST(SceneView, ATableInGrazingLightHasNoAcne) {
     const double dark = look(-0.02)[2];
     for (const double degrees : {3.0, 5.0, 10.0, 20.0}) {
         const auto [least, most, mean] = look(degrees * kHalfTurn / 180);
-        // as a share of the light that comes from there
+        // as a share of the light from the main light source
         EXPECT_LT((most - least) / (mean - dark), degrees < 4 ? 0.25 : 0.05) << degrees;
     }
 }
@@ -204,7 +206,8 @@ std::string reference(const std::string& name) {
     return "src/view/test/" + name + ".png";
 }
 
-/// Compares with a stored picture. Renderers differ by a little noise, and in pixels along edges.
+/// Compares an image with a stored picture. Different renderers may differ by slight noise and in
+/// pixels along edges.
 void expect_like(const Image& image, const std::string& name) {
     const std::string seen = (std::filesystem::temp_directory_path() / (name + ".png")).string();
     Image stored;
@@ -233,7 +236,7 @@ scene::Scene shipped(const char* file) {
     return scene;
 }
 
-/// The shipped block, held between two pads.
+/// The shipped block, held between two finger pads.
 struct Held {
     scene::Scene scene = shipped("scenes/block-on-table.yaml");
     frame::Frame frame = start(scene);
@@ -344,7 +347,7 @@ TEST(SceneView, APickedBodyHasABoxAboutItWhereItIsShown) {
     const Image plain = picture(scene, frame, camera, kSize, kSize);
     const Image with = picture(scene, frame, camera, kSize, kSize, overlays);
     const Eigen::Matrix4d clip = projection(camera, 1, 0.01, 10);
-    // the middles of the upper edges in front, behind and on the right: 2 mm from the body's own
+    // middles of the upper front, rear and right edges of the marking box, 2 mm outside the body
     for (const Vec3& edge :
          {Vec3(0, -0.032, 0.012), Vec3(0, 0.032, 0.012), Vec3(0.022, 0, 0.012)}) {
         const Vec3 p_W = frame.bodies[1].X_WB * edge;
@@ -399,10 +402,11 @@ TEST(SceneView, StampsWhatItShowsAndLeavesTheTargetBound) {
     }
     const Image once = offscreen.read();
     view.draw(held.frame, held.camera(), 64, 48);
-    EXPECT_EQ(offscreen.read().rgb, once.rgb);  // nothing of the previous frame remains
+    EXPECT_EQ(offscreen.read().rgb, once.rgb);  // nothing of the previous frame must remain
 }
 
-/// A body whose place is NaN, as in a damaged log, is left out; the others are drawn as usual.
+/// A body with the position NaN, as in a damaged log, is left out; the other bodies are drawn as
+/// usual.
 TEST(SceneView, DrawsWhatIsKnown) {
     Held held;
     const Vec3 nan = Vec3::Constant(std::nan(""));
@@ -414,7 +418,7 @@ TEST(SceneView, DrawsWhatIsKnown) {
     EXPECT_EQ(without.rgb, away.rgb);
 }
 
-/// Bodies that an experiment displays at another position are drawn as if they were at it.
+/// Bodies that an experiment displays at a different position are drawn as if they were there.
 TEST(SceneView, DrawsTheDisplayedWorld) {
     const Held held;
     frame::Frame moved = held.frame;

@@ -1,5 +1,5 @@
-// Makes tests draw in software on any machine: the stored pictures with which they compare theirs
-// were drawn by Mesa's software renderer.
+// Makes tests draw in software on every machine, because the stored pictures with which they
+// compare were drawn by Mesa's software renderer.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tests that bodies look as their scene describes them, by means of pinholes and the formulas of
+// Tests that bodies look as described in their scene, using pinhole cameras and the formulas in
 // ../README.md.
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kSize = 240;
 
-/// One body, which hangs in the air.
+/// A scene with one body that floats in the air.
 scene::Scene one_body(const Vec3& size) {
     scene::Scene scene;
     scene.bodies.resize(1);
@@ -56,7 +56,7 @@ scene::Picture worn(Image image, double width) {
     return out;
 }
 
-/// Linear red, green and blue of a pixel.
+/// Linear red, green and blue light of a pixel.
 Vec3 light_at(const Image& image, int x, int y) {
     const uint8_t* const p = image.at(x, y);
     return linear_colour(uint32_t{p[0]} << 16 | uint32_t{p[1]} << 8 | p[2]);
@@ -66,7 +66,7 @@ Ray ray_of(const Camera& camera, int x, int y) {
     return ray_through(camera, (2 * x + 1.0) / kSize - 1, 1 - (2 * y + 1.0) / kSize);
 }
 
-/// Two by two squares, of which the upper right and the lower left are light.
+/// A picture of two by two squares, of which the upper right and the lower left are light.
 Image checker(int square) {
     Image out{2 * square, 2 * square, {}};
     for (int y = 0; y < 2 * square; ++y) {
@@ -76,8 +76,8 @@ Image checker(int square) {
     return out;
 }
 
-/// Every pixel of a plate with squares of 10 mm is as light or dark as the point that a pinhole
-/// would show at that pixel, except those along the squares' edges.
+/// The picture is a plate with squares of 10 mm. Each pixel must be as light or dark as the point
+/// that a pinhole camera would show there, except along the edges of the squares.
 TEST(Pictures, HaveTheirEdgesWhereAPinholePutsThem) {
     scene::Scene scene = one_body({0.3, 0.3, 0.01});
     scene::Body& plate = scene.bodies[0];
@@ -106,7 +106,7 @@ TEST(Pictures, HaveTheirEdgesWhereAPinholePutsThem) {
                 if (place_B(x, y).cwiseAbs().maxCoeff() > 0.145 || is_light(x - 1, y) != light ||
                     is_light(x + 1, y) != light || is_light(x, y - 1) != light ||
                     is_light(x, y + 1) != light)
-                    continue;  // off the plate, or within a pixel of an edge
+                    continue;  // outside the plate, or within one pixel of an edge
                 ++inside;
                 const double seen = light_at(image, x, y).y();
                 ASSERT_TRUE(light ? seen > 0.3 : seen < 0.1) << x << " " << y << " " << seen;
@@ -116,10 +116,10 @@ TEST(Pictures, HaveTheirEdgesWhereAPinholePutsThem) {
     }
 }
 
-/// On each side of a cube, the picture is upright and not mirrored.
+/// On every side of a cube, the picture is upright and not mirrored.
 TEST(Pictures, LieOnEachSideAsTheyAreRead) {
     scene::Scene scene = one_body(Vec3::Constant(0.04));
-    // red, green / blue, yellow
+    // red and green above blue and yellow
     scene.bodies[0].picture = worn({2, 2, {200, 0, 0, 0, 200, 0, 0, 0, 200, 200, 200, 0}}, 0.04);
     struct Side {
         Vec3 out, right, up;
@@ -150,8 +150,8 @@ double smoothstep(double low, double high, double at) {
     return t * t * (3 - 2 * t);
 }
 
-/// The light seen from a surface without shadows, by the formulas of the README: n is its normal, v
-/// points to the eye.
+/// The light from a surface without shadows, according to the formulas in README.md. n is the
+/// normal of the surface; v points toward the eye.
 Vec3 lit(scene::Finish finish, const Vec3& base, const Vec3& n, const Vec3& v) {
     const Vec3 sky(0.44, 0.47, 0.52), ground(0.29, 0.275, 0.26), key(0.88, 0.85, 0.80);
     const Vec3 l = SceneView::light(), h = (l + v).normalized(), one = Vec3::Ones();
@@ -199,7 +199,7 @@ TEST(Finishes, ReflectAsTheirFormulasSay) {
     }
 }
 
-/// A flat mesh of two triangles, the left one of one colour and the right one of another; without
+/// A flat mesh of two triangles, with one colour on the left and another on the right; without
 /// colours if both are -1.
 std::shared_ptr<const scene::Mesh> flag(int32_t left, int32_t right) {
     scene::Mesh mesh;
@@ -257,7 +257,7 @@ TEST(OwnColours, AreOfVerticesThatHaveOneAndOthersHaveTheBodys) {
               0.012);
 }
 
-/// A colour that a task gives takes the place of whatever a body has.
+/// A colour given by a task replaces any other appearance of a body.
 TEST(OwnColours, AndPicturesGiveWayToATasksColour) {
     const Camera camera = camera_at({0.05, -0.2, 0.2});
     const auto pictures_differ = [&](const std::function<void(scene::Body&)>& look) {

@@ -17,8 +17,8 @@ scene::VolumeIntegrals solid(const Triangles& t) {
     return scene::integrate(vertices, faces);
 }
 
-/// Ratio of the volume that the triangles enclose to the shape's volume; negative if they face
-/// inward.
+/// Ratio of the volume enclosed by the triangles to that of the shape; negative if the triangles
+/// face inward.
 double share(const scene::Shape& shape) {
     return solid(triangles(shape)).volume / scene::integrate(shape).volume;
 }
@@ -37,7 +37,7 @@ void expect_normals_outward(const Triangles& t) {
         const Vertex& b = t.vertices[t.indices[i + 1]];
         const Vertex& c = t.vertices[t.indices[i + 2]];
         const Eigen::Vector3f face = (b.p - a.p).cross(c.p - a.p);
-        if (face.norm() < 1e-9F) continue;  // at the poles
+        if (face.norm() < 1e-9F) continue;  // degenerate triangles at the poles
         for (const Vertex* v : {&a, &b, &c}) {
             EXPECT_NEAR(v->n.norm(), 1, 1e-5);
             EXPECT_GT(v->n.dot(face.normalized()), 0.6F);
@@ -67,7 +67,7 @@ TEST(Triangles, AConcaveMeshIsDrawnItselfNotItsHull) {
     EXPECT_LT(share(cup), 0.7 * scene::integrate(cup.hull.vertices, cup.hull.faces).volume /
                               scene::integrate(cup).volume);
     const scene::Shape& mug = scene.bodies[static_cast<size_t>(scene.find("mug"))].shape;
-    EXPECT_NEAR(share(mug), 1, 0.02);  // with a handle of rounded boxes
+    EXPECT_NEAR(share(mug), 1, 0.02);  // its handle consists of rounded boxes
 }
 
 TEST(Triangles, AConvexMeshIsDrawnAsItIsFelt) {

@@ -16,7 +16,8 @@ using model::AdaptationTrial;
 using model::SingleRate;
 using model::TwoRate;
 
-/// 64 aligned trials, 160 rotated by 30 degrees, 16 by -30 and 48 error clamps.
+/// 64 aligned trials, 160 trials rotated by 30 degrees, 16 rotated by -30 degrees, and 48 error
+/// clamps.
 std::vector<AdaptationTrial> schedule() {
     std::vector<AdaptationTrial> trials(64);
     trials.insert(trials.end(), 160, {30});
@@ -56,7 +57,7 @@ TEST(TwoRateFit, FindsExactDataAgain) {
 }
 
 TEST(TwoRateFit, OfPeopleIsNoWorseThanTheTruthAndPredictsIt) {
-    // parameters of people: medians and quartiles; residual SD 6.6 degrees
+    // parameters as found in people (medians and quartiles), with a residual SD of 6.6 degrees
     const auto trials = schedule();
     const double noise = 6.6;
     Random random(11, "people");
@@ -71,7 +72,7 @@ TEST(TwoRateFit, OfPeopleIsNoWorseThanTheTruthAndPredictsIt) {
         const auto fit = fit_two_rate(measured, trials);
         EXPECT_LE(fit.mean_square, mean_square(measured, exact)) << i;
         EXPECT_NEAR(fit.residual_sd, noise, 0.2 * noise);
-        // p parameters leave an error of SD sqrt(p / n) = 0.78 degrees in the curve
+        // p fitted parameters leave an error of SD sqrt(p / n) = 0.78 degrees in the curve
         EXPECT_LT(std::sqrt(mean_square(exact, fit.predicted)), 2.0) << i;
         curve_error += mean_square(exact, fit.predicted) / people;
         held[0] += holds(fit.retention_fast, truth.fast.retention) ? 1 : 0;

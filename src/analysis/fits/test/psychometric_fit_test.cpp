@@ -14,7 +14,7 @@ namespace {
 using model::Psychometric;
 using model::Sigmoid;
 
-/// The 2AFC example of psignifit's manual: 13 levels with 90 trials each.
+/// The 2AFC example in psignifit's manual: 13 levels with 90 trials each.
 const std::vector<LevelCount> kExample = {
     {0.0010, 45, 90}, {0.0015, 50, 90}, {0.0020, 44, 90}, {0.0025, 44, 90}, {0.0030, 52, 90},
     {0.0035, 53, 90}, {0.0040, 62, 90}, {0.0045, 64, 90}, {0.0050, 76, 90}, {0.0060, 79, 90},
@@ -46,7 +46,7 @@ TEST(PsychometricFit, OfALogarithmIsTheSame) {
 }
 
 TEST(PsychometricFit, HasNoDevianceWhereItPassesThroughAllShares) {
-    // two levels, two parameters: solved by inverting the sigmoid
+    // with two levels and two parameters, the solution follows from inverting the sigmoid
     const std::vector<LevelCount> counts = {{1, 20, 100}, {3, 90, 100}};
     const auto fit =
         fit_psychometric(counts, {.sigmoid = Sigmoid::logistic, .guess = 0, .max_lapse = 0});
@@ -68,7 +68,7 @@ TEST(PsychometricFit, DevianceIsTwiceTheLogLikelihoodRatio) {
     EXPECT_NEAR(fit.deviance, deviance, 1e-8);
 }
 
-/// Random answers at nine levels, `trials` at each.
+/// Random answers at nine levels, with `trials` answers at each level.
 std::vector<LevelCount> answers(const Psychometric& f, int trials, Random& random) {
     std::vector<LevelCount> counts;
     for (double z = -2; z <= 2.01; z += 0.5) {
@@ -106,7 +106,7 @@ TEST(PsychometricFit, RecoversWhatWasPutIn) {
     }
 }
 
-/// Answers of a short staircase, whose likelihood has many local maxima.
+/// Answers in a short staircase, for which the likelihood has many local maxima.
 std::vector<LevelCount> short_staircase(double guess, Random& random) {
     const Psychometric truth{Sigmoid::normal, random.uniform(0.2, 0.6), random.uniform(0.05, 0.3),
                              guess, 0.02};
@@ -126,7 +126,7 @@ std::vector<LevelCount> short_staircase(double guess, Random& random) {
     return count(answers);
 }
 
-/// The least negative log likelihood on a dense grid of functions.
+/// The lowest negative log likelihood on a dense grid of functions.
 double least_on_grid(const std::vector<LevelCount>& counts, double guess) {
     double least = INFINITY;
     const double low = counts.front().level;
@@ -188,8 +188,9 @@ TEST(PsychometricFit, IntervalsHoldTheFit) {
     EXPECT_LE(found.lapse.high, 0.05);
 }
 
-/// If all answers are far from the threshold, the other parameters cannot make up for a lapse rate
-/// above the share of wrong answers: there, the profile is the likelihood of a binomial.
+/// If all answers are far from the threshold, the other parameters cannot compensate for a lapse
+/// rate above the proportion of wrong answers. Above that value, the profile is the likelihood of a
+/// binomial distribution.
 TEST(PsychometricFit, AnIntervalEndsWhereTheLikelihoodHasFallenByHalfOfChiSquared) {
     constexpr int kTrials = 1000;
     constexpr int kRight = 980;
@@ -213,7 +214,7 @@ TEST(PsychometricFit, DevianceTellsGoodFitsFromBad) {
     EXPECT_GT(share(good, 1), 0.05);
     EXPECT_EQ(share(good, 1), share(good, 1));
     EXPECT_NE(share(good, 1), share(good, 2));
-    // an observer who answers the other way at one level in the middle
+    // an observer who gives the opposite answers at one level in the middle
     auto bad = good;
     bad[2].yes = bad[2].trials - bad[2].yes;
     EXPECT_LT(share(bad, 1), 0.01);

@@ -1,5 +1,5 @@
-// Compares two-rate fits of synthetic people, with parameters from all over their range, with the
-// true parameters and with the results from random starts.
+// Compares two-rate fits of synthetic people, whose parameters cover their whole range, with the
+// true parameters and with the results from random starting points.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,14 +17,15 @@
 namespace dihaptic::analysis {
 
 struct WideResult {
-    int above_truth = 0;      ///< number of people whose fit is worse than their true parameters
-    double worst_start = 0;   ///< largest relative improvement on the fit from any start
-    double milliseconds = 0;  ///< processor time of a fit with its intervals [ms]
+    int above_truth = 0;  ///< number of people for whom the fit is worse than the true parameters
+    double worst_start = 0;   ///< largest relative improvement by any starting point
+    double milliseconds = 0;  ///< CPU time for a fit with its intervals [ms]
 };
 
-/// Half of the people are spread somewhat more widely than published people; the other half come
-/// from the whole range in which learning does not diverge in growing overshoots. Residuals have a
-/// standard deviation of 0.5 to 12 degrees. `starts`: number of searches from random places.
+/// Half of the people have parameters that are spread somewhat more widely than those of published
+/// people; the other half come from the whole range in which learning does not diverge in growing
+/// overshoots. The residuals have a standard deviation of 0.5 to 12 degrees. `starts`: number of
+/// searches from random starting points.
 inline WideResult fit_wide_people(int people, int starts, uint64_t seed) {
     using model::TwoRate;
     Random random(seed, "wide people");
@@ -73,7 +74,8 @@ inline WideResult fit_wide_people(int people, int starts, uint64_t seed) {
     return out;
 }
 
-/// Expects that no fit is worse than the true parameters, nor than the result from any start.
+/// Expects that no fit is worse than the true parameters or than the result from any starting
+/// point.
 inline void expect_least_of_all(int people, int starts, uint64_t seed) {
     const WideResult result = fit_wide_people(people, starts, seed);
     EXPECT_EQ(result.above_truth, 0);

@@ -1,4 +1,4 @@
-// Tests reports on tables whose figures are known.
+// Tests reports of tables with known figures.
 #include "analysis/report/report.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(Statistics, OfAKnownSample) {
     EXPECT_EQ(in_words({std::nan(""), std::nan("")}), "-");
 }
 
-/// Trials of a person who adapts by a two-rate model.
+/// The trials of a person who adapts according to a two-rate model.
 struct Learner {
     struct Kind {
         std::string block;
@@ -48,10 +48,10 @@ struct Learner {
             kinds.push_back({block, kind});
         }
     }
-    /// Text of trials.csv.
+    /// Returns the text of trials.csv.
     std::string trials(const model::TwoRate& rates, double bias, size_t unreached = 1000) {
         std::string out = "trial_num,block,kind,round,hand_angle_deg,shown_angle_deg\n";
-        // in a trial without a reach no error is seen
+        // in a trial without a reach, no error is seen
         if (unreached < schedule.size()) schedule[unreached].clamp = true;
         const auto x = model::compensation(rates, schedule);
         for (size_t i = 0; i < x.size(); ++i) {
@@ -64,7 +64,7 @@ struct Learner {
     }
 };
 
-/// trials.csv of a rotation that is learned, clamped and washed out.
+/// Returns trials.csv for a rotation that is learned, clamped and washed out.
 std::string trials_of(const model::TwoRate& rates, double rotation, double bias) {
     Learner learner;
     learner.add(16, "baseline", "baseline", 0);
@@ -91,7 +91,7 @@ TEST(Adaptation, IsFoundInTrialsWithTheRatesThatMadeIt) {
     EXPECT_NEAR(at.baseline.mean, bias, 1e-5);
     EXPECT_LT(at.late.mean, at.early.mean);
     EXPECT_NEAR(at.catch_trials.mean, curve.trials[46].compensation, 1e-12);
-    double washout = 0;  // mean of the first eight trials
+    double washout = 0;  // mean over the first eight trials of washout
     for (size_t i = 96; i < 104; ++i) washout += curve.trials[i].compensation / 8;
     EXPECT_NEAR(at.washout_first.mean, washout, 1e-12);
     const auto fits = fit_adaptation(curve);
@@ -116,7 +116,7 @@ TEST(Adaptation, SavingsAreWhatIsThereSoonerWhenTheSameIsLearnedAgain) {
         first += curve.trials[10 + i].compensation / 8;
         again += curve.trials[62 + i].compensation / 8;
     }
-    EXPECT_LT(again, first - 1);  // both are negative: more is learned
+    EXPECT_LT(again, first - 1);  // both values are negative, so more is learned
     EXPECT_NEAR(curve.windows().savings.mean, first - again, 1e-12);
     EXPECT_TRUE(std::isnan(curve.windows().rebound.mean));
 }
@@ -156,13 +156,13 @@ TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
                   "\n";
     };
     for (const double angle : {0.0, 45.0, 90.0}) add("baseline", angle, 1);
-    add("visual_clamp", 45, 3);  // before training: the bias of this direction, and no probe
+    add("visual_clamp", 45, 3);  // before training: counts as baseline, not as a probe
     for (int i = 0; i < 10; ++i) add("perturbed", 0, 3.0 * i);
     for (int i = 0; i < 2; ++i) {
         add("visual_clamp", 0, 21);
         add("visual_clamp", 45, 11);
         add("catch", 90, 3);
-        add("visual_clamp", 0, 21, "straight");  // no baseline of its own
+        add("visual_clamp", 0, 21, "straight");  // this condition has no baseline of its own
         add("catch", -45, 5);
     }
     const auto reaches = task::read_reaches(folder.write("trial-list.csv", list));
@@ -170,7 +170,7 @@ TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
         find_generalisation(rows::TrialFile(folder.write("trials.csv", trials)), reaches);
     ASSERT_EQ(found.size(), 5u);
     const double angles[] = {-45, 0, 0, 45, 90};
-    const double all = (1 + 1 + 1 + 3) / 4.0;  // baseline of directions without their own
+    const double all = (1 + 1 + 1 + 3) / 4.0;  // baseline for directions that lack one of their own
     const double trained = (20 + 21 - all) / 2;
     const double compensations[] = {5 - all, 20, 21 - all, 9, 2};
     const char* const baselines[] = {"all conditions", "its condition", "all conditions",
@@ -182,7 +182,7 @@ TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
         EXPECT_NEAR(found[i].share, compensations[i] / trained, 1e-6);
         EXPECT_EQ(found[i].baseline, baselines[i]);
     }
-    // probes in the trained direction alone show no generalisation
+    // probes only in the trained direction show no generalisation
     const std::string one =
         "trial_num,kind,condition,round,hand_angle_deg\n5,perturbed,a,z,-3\n"
         "6,visual_clamp,a,z,-3\n";
@@ -263,7 +263,7 @@ TEST(Thresholds, OfProceduresOverOneNumberArePooledAndHaveAWeberFraction) {
     tracks[0].skipped_reversals = 4;
     EXPECT_EQ(tracks[0].reversals(), (std::vector<double>{240, 210}));
     EXPECT_TRUE(tracks[1].reversals().empty());
-    // by the quartiles of a normal function, and by a forced choice's threshold
+    // from the quartiles of a normal function, and from the threshold of a forced choice
     EXPECT_NEAR(tracks[3].weber_fraction({.threshold = 205, .shape = 20}), 0.0674490, 1e-6);
     EXPECT_NEAR(tracks[3].weber_fraction({.threshold = 225, .shape = 20, .guess = 0.5}), 0.125,
                 1e-9);
@@ -274,10 +274,10 @@ TEST(Thresholds, ThatCannotBeFittedSayWhyAndOutsideOnesAreMarked) {
     ThresholdTrack track;
     track.model.sigmoid = model::Sigmoid::weibull;
     for (int i = 0; i < 20; ++i) track.answers.push_back({i % 5 * 0.1, i % 2 == 0});
-    const ThresholdFit none = fit_threshold(track);  // a level of 0
+    const ThresholdFit none = fit_threshold(track);  // because of a level of 0
     EXPECT_FALSE(none.fit);
     EXPECT_NE(none.note.find("Weibull"), std::string::npos) << none.note;
-    // hardly any answer is yes: the threshold lies beyond the levels shown
+    // hardly any answer is "yes", so the threshold lies outside the levels shown
     track.model.sigmoid = model::Sigmoid::normal;
     track.model.guess = 0;
     track.answers.clear();
@@ -311,8 +311,8 @@ TEST(Adaptation, WindowsAreOfOneBlockEach) {
     };
     const auto at = curve.windows();
     EXPECT_NEAR(at.early.mean, mean(12, 8), 1e-9);
-    EXPECT_NEAR(at.late.mean, mean(64, 8), 1e-9);         // without the reversal's trials
-    EXPECT_NEAR(at.clamp_first.mean, mean(95, 8), 1e-9);  // without the inserted clamps
+    EXPECT_NEAR(at.late.mean, mean(64, 8), 1e-9);         // excluding the trials of the reversal
+    EXPECT_NEAR(at.clamp_first.mean, mean(95, 8), 1e-9);  // excluding the inserted clamps
     EXPECT_NEAR(at.clamp_last.mean, mean(107, 8), 1e-9);
     EXPECT_NEAR(at.washout_first.mean, mean(115, 8), 1e-9);
     EXPECT_EQ(at.early.trials, 8);
@@ -351,7 +351,7 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
         const bool field = i > 10 && i <= 20;
         const bool rail = field && i % 5 == 0;
         text += number_text(i) + (field ? ",field," : ",flat,") +
-                (rail     ? "error_clamp,,turn + rail,1,0,0\n"  // as earlier versions called it
+                (rail     ? "error_clamp,,turn + rail,1,0,0\n"  // name used by earlier versions
                  : field  ? "perturbed,,curl,1,12,12\n"
                  : i > 20 ? "washout,,,0,-5,-5\n"
                           : "baseline,,,0,1,1\n");
@@ -363,7 +363,7 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
     EXPECT_TRUE(std::isnan(at.early.mean));
     EXPECT_TRUE(std::isnan(at.late.mean));
     EXPECT_TRUE(std::isnan(at.clamp_first.mean));
-    EXPECT_NEAR(at.washout_first.mean, 5, 1e-9);  // measured, whatever was learned
+    EXPECT_NEAR(at.washout_first.mean, 5, 1e-9);  // this can be measured, whatever was learned
     EXPECT_NEAR(at.baseline.mean, -1, 1e-9);
     EXPECT_TRUE(std::isnan(curve.trials[12].perturbation));
     EXPECT_FALSE(fit_adaptation(curve));
@@ -377,7 +377,7 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
     ASSERT_EQ(all.rows.size(), 6u);
     const auto what = [&](size_t i) { return std::get<std::string>(all.rows[i][2]); };
     EXPECT_EQ(what(0), "rotation by 30 deg about (0, 0, 0)");
-    EXPECT_EQ(what(1), "curl field of 0 N*s/m");  // the file above has no unit
+    EXPECT_EQ(what(1), "curl field of 0 N*s/m");  // the file above gives no unit
     EXPECT_EQ(what(2), "force channel of 0 N/m");
     EXPECT_EQ(what(5), "inertia (3, 3, 1) times");
     EXPECT_TRUE(perturbation_table(none).rows.empty());
@@ -393,7 +393,7 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
     EXPECT_EQ(unmeasured_in("rails", unmeasured), "");
 }
 
-/// trials.csv of a person who learns a field, with a channel in every eighth trial.
+/// Returns trials.csv for a person who learns a force field, with a channel in every eighth trial.
 std::string fields_of(const model::TwoRate& rates, double sign) {
     Learner learner;
     const auto add = [&](int count, const std::string& block, const std::string& kind, double f) {
@@ -435,7 +435,7 @@ TEST(Adaptation, ToAFieldIsThatOfTheIndexInChannelsAndNeverAnAngle) {
         EXPECT_EQ(curve.measure, kAdaptationIndex);
         EXPECT_EQ(curve.note(), "");
         EXPECT_NEAR(curve.perturbation(), 100 * sign, 1e-9);
-        EXPECT_TRUE(std::isnan(curve.trials[40].compensation));  // in the field
+        EXPECT_TRUE(std::isnan(curve.trials[40].compensation));  // a trial without a channel
         EXPECT_FALSE(curve.trials[40].clamp);
         EXPECT_TRUE(curve.trials[35].clamp);
         const auto at = curve.windows();
@@ -451,7 +451,7 @@ TEST(Adaptation, ToAFieldIsThatOfTheIndexInChannelsAndNeverAnAngle) {
         EXPECT_NEAR(fits->two_rate.rates.slow.retention, 0.992, 0.003);
         EXPECT_NEAR(fits->two_rate.rates.slow.learning, 0.02, 0.005);
     }
-    // without the index a channel shows nothing, whatever kind its trials have
+    // without the index, a channel shows no learning, whatever the kind of its trials
     const rows::TrialFile blind(folder.write(
         "blind.csv",
         "trial_num,block,kind,round,perturbation,share,hand_angle_deg,shown_angle_deg\n"
@@ -461,12 +461,13 @@ TEST(Adaptation, ToAFieldIsThatOfTheIndexInChannelsAndNeverAnAngle) {
     EXPECT_TRUE(std::isnan(curve.trials[1].compensation));
 }
 
-/// trials.csv of carries in two directions, in which the error shows what has not been learned yet.
+/// Returns trials.csv for carrying movements in two directions, in which the error shows what has
+/// not been learned yet.
 std::string errors_of(double effect, double noise) {
     Random random(5, "errors");
     std::vector<model::AdaptationTrial> schedule;
     for (int i = 0; i < 160; ++i) {
-        const bool acts = i >= 30 && i < 120 && i % 10 != 9;  // catch trials among them
+        const bool acts = i >= 30 && i < 120 && i % 10 != 9;  // includes catch trials
         schedule.push_back({acts ? 1.0 : 0.0, false});
     }
     const auto x = model::compensation(model::SingleRate{0.95, 0.15}, schedule);
@@ -505,7 +506,7 @@ TEST(Adaptation, ToAMassIsThatOfTheErrorsInEachDirection) {
         const auto at = curve.windows();
         EXPECT_NEAR(at.baseline.mean, 0, 3);
         EXPECT_NEAR(at.late.mean, 70,
-                    7);  // 75 % = 15 / (15 + 5), less the loss in catch trials
+                    7);  // 75 % = 15 / (15 + 5), minus the loss in catch trials
         EXPECT_GT(at.catch_trials.mean, 50);
         const auto fits = fit_adaptation(curve);
         ASSERT_TRUE(fits);
@@ -514,7 +515,7 @@ TEST(Adaptation, ToAMassIsThatOfTheErrorsInEachDirection) {
         EXPECT_LT(fits->single_rate.learning.low, 0.15);
         EXPECT_GT(fits->single_rate.learning.high, 0.15);
     }
-    // an error that the perturbation does not change shows no learning, and a note says so
+    // an error that does not depend on the perturbation shows no learning, and a note says so
     const auto none =
         error_curves(rows::TrialFile(folder.write("none.csv", errors_of(0, 1))), "deviation_mm");
     for (const AdaptationCurve& curve : none) {

@@ -1,4 +1,4 @@
-// Tests the DHD backend on a fake libdhd: its readings, its failures, and their messages.
+// Tests the DHD backend on a fake libdhd: its readings, its failures, and the error messages.
 #include <cmath>
 
 #include "devices/forcedimension/backend.h"
@@ -21,7 +21,7 @@ std::unique_ptr<DeviceGroup> make_two() {
     return make({"serial: 101\n", "serial: 102\n"});
 }
 
-/// Runs ticks like a servo that pushes along x.
+/// Runs ticks like a servo that commands a force along x.
 class Ticks {
   public:
     explicit Ticks(DeviceGroup& group)
@@ -33,7 +33,7 @@ class Ticks {
         group_.write(std::vector<Wrench>(readings_.size(), {Vec3(force, 0, 0), Vec3::Zero()}));
         return readings_;
     }
-    /// Status of device i in the next tick.
+    /// Returns the status of device i in the next tick.
     uint32_t status(size_t i, double force = 0) { return tick(force)[i].status; }
 
   private:
@@ -87,7 +87,7 @@ TEST(ForceDimension, WhatReturnsMoreThanZeroIsNoError) {
     const auto group = make_two();
     Ticks ticks(*group);
     EXPECT_EQ(ticks.status(0, 13), 0u);
-    EXPECT_EQ(ticks.status(0, 1), uint32_t{kForceClamped});  // because of the last tick's force
+    EXPECT_EQ(ticks.status(0, 1), uint32_t{kForceClamped});  // because of the last force
     EXPECT_EQ(ticks.status(0, 1), 0u);
 }
 
@@ -217,7 +217,7 @@ TEST(ForceDimension, WhatTheWatchdogEndsInAPauseWithoutForceIsNoDrop) {
     FakeDhd& fake = fake_dhd();
     const auto group = make_two();
     Ticks ticks(*group);
-    for (const double force : {0.0, 1.0}) {  // after activation, then after a pause
+    for (const double force : {0.0, 1.0}) {  // first after activation, then after a pause
         std::vector<Reading> readings(2);
         for (int ms = 0; ms < 100; ++ms) group->read(milliseconds(ms), readings);
         EXPECT_FALSE(fake.devices[0].force_enabled);

@@ -22,14 +22,14 @@ FeltOutside& outside() {
     return one;
 }
 
-/// Makes a device push with a force, and shows it outside the process too.
+/// Makes a device push with a force, and shows that force outside the process.
 void act(size_t i, const Wrench& push, bool told = false) {
     fake.devices[i].acting = push.force;
     fake.devices[i].acting_torque = push.torque;
     outside().show(i, push.force, told);
 }
 
-/// The device's time [s].
+/// The time on the device's clock [s].
 double now(const Device& device) {
     static const bool real = std::getenv("DIHAPTIC_FAKE_PUSH") != nullptr;
     static const auto begin = std::chrono::steady_clock::now();
@@ -50,7 +50,8 @@ void cut(size_t i, int cause) {
     act(i, {});
 }
 
-/// The watchdog of a device's firmware, if set: it ends a force that is not renewed.
+/// Simulates the watchdog in a device's firmware: if it is set, it ends a force that is not
+/// renewed.
 void watch(size_t i) {
     const Device& device = fake.devices[i];
     const double limit = device.watchdog * kDhdWatchdogStep;
@@ -83,7 +84,7 @@ Device* find(char id) {
     return &fake.devices[i];
 }
 
-Held state[8];  // by device, at the last reading
+Held state[8];  // states at the last reading, indexed by device
 
 }  // namespace
 

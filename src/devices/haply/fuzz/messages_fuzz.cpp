@@ -1,4 +1,4 @@
-// Reads any text as a message of the Inverse Service.
+// Reads arbitrary text as a message from the Inverse Service.
 #include "devices/haply/messages.h"
 
 #include <algorithm>
@@ -15,7 +15,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     std::vector<char> text(size + Connection::kPadding);
     std::copy_n(data, size, text.begin());
     if (!reader.read({text.data(), size}, message)) return 0;
-    unsigned sum = 0;  // over every character to which the message points: all must be readable
+    // the sum covers every character to which the message points, because all of them must be
+    // readable
+    unsigned sum = 0;
     const auto look_at = [&](std::string_view letters) {
         for (const char letter : letters) sum += static_cast<unsigned char>(letter);
     };

@@ -1,4 +1,4 @@
-// Tests the reported owner of a program that answers at a port of this machine.
+// Tests which owner is reported for a program that answers on a port of this machine.
 #include "devices/haply/answerer.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,8 @@
 namespace dihaptic::devices::haply::answerer_test {
 namespace {
 
-/// Listens on a port of this machine, over IPv4, or with an IPv6 socket that accepts both.
+/// Listens on a port of this machine, either over IPv4 or with an IPv6 socket that accepts both
+/// protocols.
 int listening(bool v6) {
     const int out = socket(v6 ? AF_INET6 : AF_INET, SOCK_STREAM, 0);
     sockaddr_in6 wide{};
@@ -29,7 +30,7 @@ int listening(bool v6) {
     return out;
 }
 
-/// A connection over IPv4 to the listening program.
+/// Connects to the listening program over IPv4.
 int connected_to(int listener, bool v6) {
     sockaddr_in6 wide{};
     sockaddr_in at{};
@@ -65,7 +66,7 @@ TEST(Answerer, OfAnotherUserIsFound) {
     ASSERT_EQ(pipe(ready), 0);
     const pid_t child = fork();
     if (child == 0) {
-        // a socket belongs to its maker, so this user makes its own
+        // a socket belongs to the user who created it, so this user creates its own
         if (setuid(kNobody) != 0) _exit(1);
         const int own = listening(false);
         if (write(ready[1], &own, sizeof(own)) < 0) _exit(1);
@@ -83,7 +84,7 @@ TEST(Answerer, OfAnotherUserIsFound) {
     const int mine = socket(AF_INET, SOCK_STREAM, 0);
     EXPECT_EQ(connect(mine, reinterpret_cast<const sockaddr*>(&at), sizeof(at)), 0);
     std::optional<uid_t> user;
-    for (int i = 0; i < 500 && user != kNobody; ++i) {  // until the program has accepted
+    for (int i = 0; i < 500 && user != kNobody; ++i) {  // until the program accepts
         usleep(10'000);
         user = user_at_other_end(mine);
     }

@@ -1,12 +1,12 @@
-// A fake Inverse Service for tests of the whole program: a process of its own, which outlives its
-// client like the real one, and ends with the process that started it.
+// A fake Inverse Service for tests of the whole program. It is a separate process, which outlives
+// its client like the real service, and ends with the process that started it.
 //
 //   fake_haply_service [DEVICES]      prints its address, then the devices' serial numbers, a line
 //                                     each; 2 devices by default
 //
-// It ticks at 1 kHz on the real clock. DIHAPTIC_FAKE_PUSH moves its handles, and DIHAPTIC_FAKE_FELT
-// shows its devices' forces, as for the manufacturers' fake libraries. A force lasts one tick; the
-// time for which Haply's own service leaves a force on is unknown.
+// It ticks at 1 kHz on the real clock. As with the manufacturers' fake libraries,
+// DIHAPTIC_FAKE_PUSH moves its handles, and DIHAPTIC_FAKE_FELT shows the forces of its devices. A
+// force lasts one tick; it is not known for how long Haply's own service leaves a force on.
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <unistd.h>

@@ -134,7 +134,7 @@ struct FakeService::Impl {
         });
     }
 
-    /// Handles a message from the client.
+    /// Processes a message from the client.
     void take(const std::string& text) {
         const auto json = nlohmann::json::parse(text);
         Forces these(setup.devices.size(), Vec3::Zero());
@@ -161,7 +161,8 @@ struct FakeService::Impl {
         commanded = true;
         ++owed;
         if (setup.rate > 0) return;
-        // time starts with the first message: a session's first tick has the state at time 0
+        // time starts with the first message, so that a session's first tick has the state at time
+        // 0
         if (session->messages > 0) tick();
         answer();
     }
@@ -225,7 +226,7 @@ struct FakeService::Impl {
         if (mischief == Mischief::half_json) text.resize(text.size() / 2);
         if (mischief == Mischief::complains) text = R"({"error":"device-safety-triggered"})";
         if (half) {
-            // the header of a whole text frame, unmasked like every frame of a server
+            // the header of a complete text frame, unmasked like every frame sent by a server
             const std::string head{'\x81', '\x7e', static_cast<char>(text.size() >> 8),
                                    static_cast<char>(text.size() & 0xff)};
             error_code ec;
@@ -288,14 +289,14 @@ struct FakeService::Impl {
     }
 
     Setup setup;
-    std::unique_ptr<DeviceGroup> plant;  // null if there is a hand
+    std::unique_ptr<DeviceGroup> plant;  // null if a hand moves the handles
     FeltOutside outside;
     Time period;
     Time time{0};
     std::vector<Reading> readings;
     std::vector<Wrench> forces;
-    bool commanded = false;  // a message came in this tick
-    int owed = 0;            // number of outstanding answers
+    bool commanded = false;  // whether a message has arrived in this tick
+    int owed = 0;            // number of answers that have not been sent yet
 
     net::io_context io{1};
     net::ip::tcp::acceptor acceptor{io, {net::ip::make_address("127.0.0.1"), 0}};
@@ -304,7 +305,7 @@ struct FakeService::Impl {
     Mischief mischief = Mischief::none;  // present misbehaviour
     size_t mischief_device = 0;
 
-    mutable std::mutex mutex;  // guards the members below
+    mutable std::mutex mutex;  // protects the members below
     Mischief planned = Mischief::none;
     int planned_message = -1;
     Time planned_pause{0};

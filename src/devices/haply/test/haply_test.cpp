@@ -1,4 +1,5 @@
-// Tests the backend on the fake service: what it requires of a set-up, and the effects of faults.
+// Tests the backend on the fake service: what it requires when it is set up, and the effects of
+// faults.
 #include <gtest/gtest.h>
 
 #include "base/number.h"
@@ -16,7 +17,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A hand whose fingers stay apart and turn slowly.
+/// A simulated hand whose fingers stay apart and turn slowly.
 class TurningDriver final : public hand::Driver {
   public:
     static constexpr double kTurn = 0.5;  // [rad/s]
@@ -48,7 +49,7 @@ class Haply : public ::testing::Test {
         const std::string waits = "time_out_ms: " + number_text(time_out_ms_) + ", ";
         return make_group(rig_of(*service_, fingers_, waits + more), context_);
     }
-    /// The message with which activation fails.
+    /// The error message with which activation fails.
     std::string refusal(const std::string& more = "") {
         try {
             group(more)->activate();
@@ -210,7 +211,7 @@ TEST_F(Haply, ReadsAndPushesTheDevicesBehindTheService) {
     EXPECT_EQ(readings[1].status, kForceClamped);
     devices->deactivate();
     const auto received = service_->received();
-    ASSERT_EQ(received.size(), 52u);  // 50, and one with zero force before and after
+    ASSERT_EQ(received.size(), 52u);  // 50, plus one with zero force before and after
     EXPECT_EQ(received.front()[0], Vec3::Zero());
     EXPECT_EQ(received[1][0], Vec3(0, 0, 1));
     EXPECT_EQ(received[1][1], Vec3(0, -5, 0));
@@ -425,7 +426,7 @@ TEST_P(HaplyRate, LosesAndDoublesNoCommand) {
     devices->activate();
     const NumberedRun first =
         expect_no_command_lost_or_doubled(*devices, *service_, 1, static_cast<int>(GetParam() / 4));
-    // a pause, which starts as in Servo::rest()
+    // a pause, which begins in the same way as in Servo::rest()
     devices->write(std::vector<Wrench>(2));
     devices->write(std::vector<Wrench>(2));
     expect_no_command_lost_or_doubled(*devices, *service_, first.sent + 2, 20);

@@ -1,4 +1,4 @@
-// Sends numbered commands, to test that each arrives once and in order.
+// Sends numbered commands, to test that each command arrives exactly once and in order.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,11 +9,12 @@ namespace dihaptic::devices::haply {
 
 struct NumberedRun {
     size_t sent = 0;                 ///< number of messages that the service has received so far
-    std::vector<double> round_trip;  ///< from a command to the tick called by its answer [s]
+    std::vector<double> round_trip;  ///< time from a command to the tick of its answer [s]
     double duration = 0;             ///< [s]
 };
 
-/// Paces `ticks` ticks of two devices, after `sent` messages. Each tick's force is its number.
+/// Paces `ticks` ticks of two devices, after `sent` messages have been sent. The force in each tick
+/// is the number of the tick.
 inline NumberedRun expect_no_command_lost_or_doubled(DeviceGroup& devices,
                                                      const FakeService& service, size_t sent,
                                                      int ticks) {
@@ -40,12 +41,12 @@ inline NumberedRun expect_no_command_lost_or_doubled(DeviceGroup& devices,
         devices.write(forces);
         return tick < ticks;
     });
-    devices.read(Clock::now() - begin, readings);  // the answer to the last command
+    devices.read(Clock::now() - begin, readings);  // takes the answer to the last command
     out.duration = std::chrono::duration<double>(Clock::now() - begin).count();
     EXPECT_EQ(status | readings[0].status | readings[1].status, 0u);
 
     const auto received = service.received();
-    out.sent = sent + 1;  // one message with zero force, for the first state
+    out.sent = sent + 1;  // one message with zero force was sent to obtain the first state
     EXPECT_EQ(received.size(), out.sent + static_cast<size_t>(ticks));
     for (int i = 1; i <= ticks && out.sent < received.size(); ++i, ++out.sent) {
         EXPECT_EQ(received[out.sent][0], Vec3(number(i), 0, 0)) << i;

@@ -1,4 +1,4 @@
-// Simulated devices behind the fake Inverse Service, which ticks with each message.
+// Simulated devices behind the fake Inverse Service, which runs one tick per message.
 #pragma once
 
 #include "devices/haply/test/fake_service.h"

@@ -28,7 +28,7 @@ struct Scheduled {
     unsigned short priority;
 };
 
-/// One lock for all data, as speed does not matter here.
+/// A single lock protects all data, because speed does not matter here.
 std::recursive_mutex mutex;
 std::deque<HdErrorInfo> errors;
 HdHandle current = kNoHandle;
@@ -41,7 +41,7 @@ std::thread scheduler;
 std::atomic<std::thread::id> scheduler_id;
 std::vector<int> frames_of_tick;  // by device
 std::vector<bool> framed;         // by device
-Wrench wanted[8];                 // by device, as set in this frame
+Wrench wanted[8];                 // commanded in this frame, indexed by device
 
 using Lock = std::lock_guard<std::recursive_mutex>;
 
@@ -50,7 +50,7 @@ FeltOutside& outside() {
     return one;
 }
 
-/// Makes a device push with a force, and shows it outside the process too.
+/// Makes a device push with a force, and shows that force outside the process.
 void act(Device& device, const Wrench& push, bool told = false) {
     device.acting = push.force;
     device.acting_torque = push.torque;
@@ -101,7 +101,7 @@ void reset() {
     framed.assign(8, false);
 }
 
-/// While the scheduler runs, only its callbacks may call a device's functions.
+/// Checks that, while the scheduler runs, only its callbacks call a device's functions.
 void look_at_thread() {
     if (running.load() && std::this_thread::get_id() != scheduler_id) ++fake.violations;
 }
@@ -132,7 +132,7 @@ void run_scheduler() {
         silent = silent || fake.silent || (fake.before_tick && !fake.before_tick(tick));
         const bool called = !silent && call_all();
         do {
-            next += period;  // missed ticks are skipped
+            next += period;  // ticks that were missed are skipped
         } while (next < Clock::now());
         if (fake.real_time) {
             std::this_thread::sleep_until(next);
@@ -142,8 +142,8 @@ void run_scheduler() {
     }
 }
 
-/// The current device, to which the call applies. Returns null and raises an error if there is
-/// none.
+/// Returns the current device, to which the call applies. If there is none, raises an error and
+/// returns null.
 Device* here() {
     look_at_thread();
     return find(current);
@@ -158,9 +158,9 @@ Held held(Device& device) {
     ++device.frames;
     return out;
 }
-Held state[8];  // by device, in this frame
+Held state[8];  // states in this frame, indexed by device
 
-/// Joint angles reported by an arm's encoders, with our signs [rad].
+/// The joint angles that an arm's encoders report, in Dihaptic's sign convention [rad].
 Vec3 told_joints(const Device& device, const Held& now) {
     return model::phantom_joints({}, now.p) - *device.joint_offset;
 }
@@ -170,13 +170,14 @@ Vec3 middle(const Device& device) {
     return Vec3(w[0] + w[3], w[1] + w[4], w[2] + w[5]) / 2;
 }
 
-/// Position of the handle as reported by HD [mm].
+/// The position of the handle as HD reports it [mm].
 Vec3 told_position(const Device& device, const Held& now) {
     if (device.joint_offset) return 1e3 * model::phantom_position({}, told_joints(device, now));
     return 1e3 * now.p + middle(device);
 }
 
-/// The part of a force that reaches the hand: force ramps up after the amplifiers are switched on.
+/// The part of a force that reaches the hand, because force ramps up after the amplifiers are
+/// switched on.
 Wrench ramped(Device& device, const Wrench& push) {
     const double most = fake.ramp * ++device.frames_of_force / static_cast<double>(rate);
     const double size = push.force.norm();
@@ -376,7 +377,7 @@ void hdSetDoublev(unsigned value, const double* in) {
     if (here() == nullptr) return;
     const bool turn = value == kHdTorque && fake.devices[current].output_dof >= 6;
     if (value != kHdForce && !turn) return push(0x100, current);
-    // outside a frame a force has no effect, and is a mistake
+    // outside a frame, setting a force is a mistake and has no effect
     if (!framed[current]) ++fake.violations;
     if (turn) wanted[current].torque = Vec3(in[0], in[1], in[2]) * 1e-3;
     if (!turn) wanted[current].force = Vec3(in[0], in[1], in[2]);

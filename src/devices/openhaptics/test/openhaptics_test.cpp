@@ -1,4 +1,4 @@
-// Tests the HD backend on a fake libHD: its readings, its failures, and their messages.
+// Tests the HD backend on a fake libHD: its readings, its failures, and the error messages.
 #include <thread>
 
 #include "devices/openhaptics/backend.h"
@@ -24,7 +24,8 @@ std::unique_ptr<DeviceGroup> make_two() {
     return make({kTwo[0], kTwo[1]});
 }
 
-/// Runs `ticks` through pace() like a servo that pushes with `force`; keeps each tick's readings.
+/// Runs `ticks` ticks through pace() like a servo that commands `force`, and keeps the readings of
+/// each tick.
 struct Paced {
     std::vector<std::vector<Reading>> readings;
     explicit Paced(DeviceGroup& group, int ticks, const Vec3& force = Vec3::Zero(),
@@ -88,7 +89,8 @@ TEST(OpenHaptics, TellsTheJointsOfAnArmThatIsAskedForThem) {
     fake.hand = [&](size_t, double, const Wrench&) { return Held{model::phantom_position({}, q)}; };
     const auto group = make({"joint_angles: yes\n"});
     ASSERT_TRUE(group->info(0).arm);
-    // HD's own origin is not the middle of the workspace: the box follows from the smaller side
+    // HD's own origin is not in the middle of the workspace, so the smaller side determines the
+    // size of the box
     EXPECT_TRUE(group->info(0).workspace->isApprox(Vec3(0.254, 0.120, 0.080)));
     group->activate();
     const Reading reading = Paced(*group, 1).readings[0][0];
@@ -145,7 +147,7 @@ TEST(OpenHaptics, ForceRampsUpWhenTheSchedulerStarts) {
         return Held{};
     };
     const Paced run(*group, 50, {2, 0, 0});
-    EXPECT_NEAR(felt[10], 1, 1e-9);  // 100 N/s for 10 ms
+    EXPECT_NEAR(felt[10], 1, 1e-9);  // after 10 ms at 100 N/s
     EXPECT_EQ(felt[49], 2);
 }
 
@@ -319,8 +321,8 @@ TEST_P(HdForceErrors, TakeOneTicksForceAndAreArmedAgain) {
     EXPECT_EQ(run.readings[10][1].status, uint32_t{kForceDropped});
     EXPECT_EQ(run.readings[10][0].status, 0u);
     EXPECT_EQ(run.readings[11][1].status, 0u);
-    EXPECT_EQ(felt[1][10], 0);  // the device cut its force itself
-    EXPECT_EQ(felt[1][11], 0);  // zero was written
+    EXPECT_EQ(felt[1][10], 0);  // in this tick, the device cut its force
+    EXPECT_EQ(felt[1][11], 0);  // in this tick, zero was written
     EXPECT_EQ(felt[1][12], 1);
     EXPECT_NE(group->explain(1), "");
     EXPECT_EQ(group->explain(0), "");
@@ -368,7 +370,7 @@ TEST_P(HdLosses, LeaveADeviceAloneForGoodAndTheOthersInTheirFrames) {
     EXPECT_EQ(fake.devices[1].frames, 20);
     EXPECT_NE(group->explain(0), "");
     group->deactivate();
-    group->activate();  // recovers the device
+    group->activate();  // activating the group again recovers the device
     EXPECT_EQ(Paced(*group, 1).readings[0][0].status, 0u);
 }
 INSTANTIATE_TEST_SUITE_P(OpenHaptics, HdLosses,

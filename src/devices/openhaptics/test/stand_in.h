@@ -14,7 +14,7 @@ inline StandIn stand_in() {
                 const std::vector<simulated::Options> options = options_of(configs);
                 FakeHd& fake = fake_hd();
                 fake.hand = plant_hand(configs, context);
-                constexpr double kLarge = 1e6;  // practically no limit
+                constexpr double kLarge = 1e6;  // so large that it is practically no limit
                 for (size_t i = 0; i < configs.size(); ++i) {
                     FakeHd::Device& device = fake.devices[i];
                     device.max_force = options[i].peak_force;
@@ -25,7 +25,7 @@ inline StandIn stand_in() {
                         device.max_torque = options[i].peak_torque * 1e3;
                     const Vec3 edges = options[i].workspace.value_or(Vec3::Constant(2)) * 1e3;
                     for (int axis = 0; axis < 3; ++axis) {
-                        // off the origin, like manufacturers' workspaces
+                        // not centred on the origin, like manufacturers' workspaces
                         device.workspace[axis] = -0.4 * edges[axis];
                         device.workspace[axis + 3] = 0.6 * edges[axis];
                     }

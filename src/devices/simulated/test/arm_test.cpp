@@ -23,7 +23,7 @@ Options premium(double friction = 0, double step = 0) {
     return options;
 }
 
-/// A spring that holds the endpoint near the middle of its reach.
+/// A spring that holds the endpoint near the middle of its range.
 struct Spring {
     double k;
     Vec3 operator()(const Vec3& p_DH, const Vec3&) const noexcept { return -k * p_DH; }
@@ -47,7 +47,7 @@ TEST(Arm, KeepsItsEnergyWithoutFriction) {
             drift = std::max(drift, std::abs(energy() - begin));
         }
         EXPECT_GT(fastest, 0.5);
-        EXPECT_LT(drift / begin, 1e-7) << carried;  // required: 0.1 %
+        EXPECT_LT(drift / begin, 1e-7) << carried;  // the requirement is 0.1 %
     }
 }
 
@@ -90,7 +90,7 @@ TEST(Arm, StopsWhereItsJointsEnd) {
     EXPECT_LT(arm.rate().norm(), 1e-9);
 }
 
-/// A moving hand.
+/// A simulated hand that moves.
 class RoundDriver final : public hand::Driver {
   public:
     static Vec3 at(double t) {

@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A hand whose target steps from 0 to `to` at time 0.
+/// A simulated hand whose target jumps from 0 to `to` at time 0.
 class StepDriver final : public hand::Driver {
   public:
     explicit StepDriver(const Vec3& to, const Vec3& v = Vec3::Zero()) : to_(to), v_(v) {}
@@ -72,7 +72,7 @@ TEST(Plant, ForcesActAsManyTicksLateAsAsked) {
     options.delay_ticks = 2;
     const StepDriver driver(Vec3::Zero());
     Plant p = plant(options, {}, driver);
-    p.hold({Vec3(1, 0, 0)});  // acts from the third advance on
+    p.hold({Vec3(1, 0, 0)});  // acts from the third call of advance() onwards
     p.advance(milliseconds(1));
     EXPECT_EQ(p.v_WH().x(), 0);
     p.hold({});
@@ -87,7 +87,7 @@ TEST(Plant, ForcesActAsManyTicksLateAsAsked) {
     EXPECT_LT(p.v_WH().x(), speed);
 }
 
-/// A hand whose target turns at time 0.
+/// A simulated hand whose target turns at time 0.
 class TurnDriver final : public hand::Driver {
   public:
     explicit TurnDriver(const Vec3& to) : to_(to) {}
@@ -125,7 +125,7 @@ TEST(Plant, TurnsAsTheDampedOscillatorThatItIs) {
         const double t = i * 1e-3;
         const double expected =
             0.2 * (1 - std::exp(-decay * t) * (std::cos(w * t) + decay / w * std::sin(w * t)));
-        // 0.1 ms late, since the target steps after the first step
+        // 0.1 ms late, because the target moves only after the first step
         EXPECT_NEAR(rotation_vector(p.R_WH()).dot(axis), expected, 2.5e-3) << t;
         EXPECT_LT(rotation_vector(p.R_WH()).cross(axis).norm(), 1e-9);
     }
@@ -164,8 +164,8 @@ TEST(Plant, FrictionHoldsAgainstLessThanItself) {
     EXPECT_EQ(p.p_WH().x(), 0);
     p.hold({Vec3(0.15, 0, 0)});
     p.advance(milliseconds(3000));
-    // it stops where spring and friction balance the force: within friction / stiffness of the
-    // target
+    // the endpoint stops where spring and friction balance the force, i.e. within friction /
+    // stiffness of the target
     EXPECT_NEAR(p.p_WH().x(), 0.15 / 300, 0.04 / 300 + 1e-6);
     EXPECT_EQ(p.v_WH().x(), 0);
 }
@@ -238,7 +238,7 @@ TEST(SimulatedGroup, ReadsOrientationAndWritesTorqueInTheDevicesFrame) {
         group->read(milliseconds(i), readings);
         group->write(told);
     }
-    // against 1 N*m/rad
+    // the torque acts against a stiffness of 1 N*m/rad
     EXPECT_LT((X_WD.R * rotation_vector(readings[0].R_DH) - t_W).norm(), 1e-6);
 }
 

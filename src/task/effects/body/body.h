@@ -1,9 +1,9 @@
 // Factors on a body's properties in the scene:
 //
-//     m_i (1 + s (scale_i - 1))      its inertia along each axis; likewise its weight, moments of
-//                                    inertia, friction and surface
+//     m_i (1 + s (scale_i - 1))      its inertia along each axis, and similarly its weight,
+//                                    moments of inertia, friction and surface
 //
-// where s is the share. Factors of several perturbations on one body multiply.
+// where s is the share. If several perturbations act on one body, their factors multiply.
 #pragma once
 
 #include "frame/task_frame.h"
@@ -21,12 +21,14 @@ struct BodySpec {
     using Effect = BodyEffect;
 
     Ref<scene::Body> body;
-    FormulaVec3 mass_scale{1, 1, 1};  ///< on inertia along the world axes; weight unchanged
-    Formula weight_scale = 1;         ///< on weight; inertia unchanged
-    Formula density_scale = 1;        ///< on weight, inertia and moments of inertia
+    FormulaVec3 mass_scale{
+        1, 1, 1};  ///< factors on the inertia along the world axes; the weight is unchanged
+    Formula weight_scale = 1;   ///< factor on the weight; the inertia is unchanged
+    Formula density_scale = 1;  ///< factor on the weight, inertia and moments of inertia
     Formula friction_scale = 1;
-    Formula stiffness_scale = 1;    ///< of the body's surface; also scales its damping
-    Formula restitution_scale = 1;  ///< of the body's surface
+    /// Factor on the stiffness of the body's surface and on its damping.
+    Formula stiffness_scale = 1;
+    Formula restitution_scale = 1;  ///< factor on the restitution of the body's surface
     Formula texture_wavelength_scale = 1;
     Formula texture_height_scale = 1;
     Formula texture_friction_scale = 1;
@@ -63,16 +65,16 @@ struct BodySpec {
     }
 };
 
-/// Adds descriptions of the changes and their sizes, for a report.
+/// Appends descriptions of the changes and their sizes to `out`, for a report.
 void say(const BodySpec& spec, std::vector<std::string>& out);
 
 class BodyEffect {
   public:
-    /// Problems in the spec go to `diagnostics`.
+    /// Problems in the spec are added to `diagnostics`.
     BodyEffect(const BodySpec& spec, const Names& names, const scene::Scene& scene,
                Diagnostics& diagnostics);
 
-    /// The body's properties at share 1.
+    /// The body's properties when the effect's share is 1.
     frame::PropertiesFrame properties() const noexcept;
     void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                frame::TaskFrame& out) const noexcept;

@@ -17,8 +17,8 @@ struct JointSpec {
     using Effect = JointEffect;
 
     Ref<scene::Joint> joint;
-    Formula stiffness_scale = 1;  ///< of the joint's spring
-    Formula damping_scale = 1;    ///< of the joint's damper
+    Formula stiffness_scale = 1;  ///< factor on the stiffness of the joint's spring
+    Formula damping_scale = 1;    ///< factor on the damping of the joint's damper
     Formula friction_scale = 1;
     Place place;
 
@@ -34,12 +34,12 @@ struct JointSpec {
     }
 };
 
-/// Adds descriptions of the changes and their sizes, for a report.
+/// Appends descriptions of the changes and their sizes to `out`, for a report.
 void say(const JointSpec& spec, std::vector<std::string>& out);
 
 class JointEffect {
   public:
-    /// Problems in the spec go to `diagnostics`.
+    /// Problems in the spec are added to `diagnostics`.
     JointEffect(const JointSpec& spec, const Names& names, const scene::Scene& scene,
                 Diagnostics& diagnostics);
 

@@ -13,9 +13,10 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr double kRoundingShare = 1e-9;  // relative rounding error of eigenvalues
+constexpr double kRoundingShare = 1e-9;  // relative rounding error of the computed eigenvalues
 
-/// Largest eigenvalue of the symmetric part, the only part that supplies or absorbs energy.
+/// Returns the largest eigenvalue of the symmetric part of the matrix, the only part that supplies
+/// or absorbs energy.
 double most_driving(const Mat3& matrix) {
     const Mat3 symmetric = (matrix + matrix.transpose()) / 2;
     const Eigen::SelfAdjointEigenSolver<Mat3> solver(symmetric, Eigen::EigenvaluesOnly);
@@ -225,8 +226,8 @@ Load::Demand Load::demand() const {
         return out;
     }
     out.force += out.stiffness * *spec_.zone;
-    // while it fades, an attracting load acts with negative stiffness, and a repelling one with
-    // positive stiffness
+    // while the load fades with distance, it has negative stiffness if it attracts, and positive
+    // stiffness if it repels
     out.stiffness = std::max(out.stiffness, out.force / spec_.fade);
     return out;
 }
@@ -251,7 +252,7 @@ Wrench Load::act(double share, std::span<const Vec3> regions_W,
         case LoadKind::spring:
         case LoadKind::channel:
             return {pull(share, regions_W, motion), Vec3::Zero()};
-        case LoadKind::link:  // depends on two motions
+        case LoadKind::link:  // the force depends on two motions
             break;
     }
     return {};
@@ -321,11 +322,11 @@ Vec3 Load::pull(double share, std::span<const Vec3> regions_W,
     }
     if (spec_.one_sided && off.dot(direction) >= 0) return Vec3::Zero();
     const Vec3 force = -share * (spec_.stiffness.value * off + spec_.damping.value * across);
-    if (spec_.one_sided && force.dot(direction) < 0) return Vec3::Zero();  // a wall does not pull
+    if (spec_.one_sided && force.dot(direction) < 0) return Vec3::Zero();  // a wall only pushes
     return spec_.zone ? Vec3(left_at(off.norm()) * force) : force;
 }
 
-/// Share of the load that remains at a distance from its point, line or plane.
+/// Returns the share of the load that remains at a distance from its point, line or plane.
 double Load::left_at(double distance) const noexcept {
     if (!spec_.zone) return 1;
     return std::clamp(1 - (distance - *spec_.zone) / spec_.fade, 0.0, 1.0);

@@ -6,13 +6,14 @@
 //     general    f = f0 + A (p - p0) + B v
 //     spring     f = -k d - b v_d
 //     channel    the same, with k > 0
-//     link       f = -(k (|d| - L) + b d/dt |d|) d / |d| on one thing, and -f on the other
+//     link       f = -(k (|d| - L) + b d/dt |d|) d / |d| acts on one thing, and -f on the other
 //
 // p and v are the position and velocity of the handle or body; d is the vector to p from a point,
 // or from the nearest point of a line or plane, and v_d is the component of v that changes d. In a
-// link, d leads from the other thing: a spring or rod pulls and pushes, a rope only pulls, and a
-// wall between two hands only pushes. Beyond a zone around p0, or around the point, line or plane,
-// a load fades to zero: its factor falls linearly with the distance.
+// link, d points from the other thing to this one: a spring or rod pulls and pushes, a rope only
+// pulls, and a wall between two hands only pushes. Beyond a zone around p0, or around the point,
+// line or plane, a load fades to zero: it is multiplied by a factor that decreases linearly with
+// distance.
 #pragma once
 
 #include <array>
@@ -31,14 +32,15 @@ namespace dihaptic::task {
 
 class Load;
 class Names;
-struct Thing;  ///< the object of a load: a body, or the handle of a finger
+struct Thing;  ///< what a load acts on: a body, or the handle of a finger
 
 enum class LoadKind { constant, viscous, curl, general, spring, channel, link };
 constexpr auto enum_names(LoadKind) {
     return std::array{"constant", "viscous", "curl", "general", "spring", "channel", "link"};
 }
 
-/// Directions of a link's force: rods pull and push, ropes only pull, walls only push.
+/// Directions in which a link's force can act: rods pull and push, ropes only pull, walls only
+/// push.
 enum class LinkActs { both, pulls, pushes };
 constexpr auto enum_names(LinkActs) {
     return std::array{"both", "pulls", "pushes"};
@@ -54,22 +56,23 @@ struct LoadSpec {
     FormulaVec3 force;           ///< f0 [N]
     FormulaVec3 torque;          ///< t0 [N*m]
     Formula damping = 0;         ///< b [N*s/m]
-    Formula stiffness = 0;       ///< k; if negative, the load pushes away [N/m]
+    Formula stiffness = 0;       ///< k; the load pushes away if it is negative [N/m]
     Mat3 A = Mat3::Zero();       ///< [N/m]
     Mat3 B = Mat3::Zero();       ///< [N*s/m]
     Ref<Region> about;           ///< p0, or a point of the line or plane
-    std::optional<Vec3> axis;    ///< e of a curl field; direction of a spring's line
-    std::optional<Vec3> normal;  ///< of a plane
-    Ref<Region> from;            ///< start of the line
-    Ref<Region> to;              ///< another point of the line
-    std::optional<Vec3> free;    ///< direction that spans a plane with the line
-    bool one_sided = false;      ///< a plane acts only on the side opposite to its normal
+    std::optional<Vec3> axis;    ///< axis e of a curl field, or direction of a spring's line
+    std::optional<Vec3> normal;  ///< normal of a spring's or channel's plane
+    Ref<Region> from;            ///< start of the line to which the load pulls
+    Ref<Region> to;              ///< another point of that line, toward which it leads from `from`
+    /// Direction in which motion is free; it spans a plane with the line.
+    std::optional<Vec3> free;
+    bool one_sided = false;      ///< whether a plane acts only on the side opposite to its normal
     std::optional<double> zone;  ///< distance at which fading starts [m]
     double fade = 0.01;          ///< distance over which the load fades [m]
-    Refs<Thing> between;         ///< the two ends of a link
-    Formula length = 0;          ///< L of a link [m]
+    Refs<Thing> between;         ///< the two bodies or fingers that a link joins
+    Formula length = 0;          ///< rest length L of a link [m]
     LinkActs acts = LinkActs::both;
-    Formula delay = 0;  ///< age of p and v in the law [s]
+    Formula delay = 0;  ///< age of the p and v from which the load is computed [s]
     Place place;
 
     template <class Visitor>
@@ -128,7 +131,8 @@ struct LoadSpec {
                   .says("Age of the position and velocity from which the load is computed."));
     }
 
-    /// Whether the load is a field whose force depends on the velocity, alone or with other terms.
+    /// Whether the load is a field whose force depends on velocity, alone or together with other
+    /// terms.
     bool pushes_by_velocity() const;
 
   private:
@@ -190,13 +194,13 @@ struct LoadSpec {
     }
 };
 
-/// Adds a description of the load's kind and size, for a report.
+/// Appends a description of the load's kind and size to `out`, for a report.
 void say(const LoadSpec& spec, std::vector<std::string>& out);
 
-/// A load whose names have been looked up. In the tick it neither allocates nor throws.
+/// A load whose names have been looked up. It does not allocate or throw during a tick.
 class Load {
   public:
-    /// Problems in the spec go to `diagnostics`.
+    /// Problems in the spec are added to `diagnostics`.
     Load(const LoadSpec& spec, const Names& names, const scene::Scene& scene,
          Diagnostics& diagnostics);
 
@@ -205,9 +209,9 @@ class Load {
     bool is_computed() const;
     double stiffness() const { return spec_.stiffness.value; }
     double delay() const { return spec_.delay.value; }
-    /// Upper bound of the load's delay [s].
+    /// Upper bound on the load's delay [s].
     double longest_delay() const;
-    /// The load's objects, as indices of bodies; fingers come after the scene's bodies.
+    /// Indices of the things that the load acts on: bodies of the scene, followed by fingers.
     std::span<const int> on() const { return spec_.on.indices; }
     void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                frame::TaskFrame& out) const noexcept;
@@ -215,24 +219,26 @@ class Load {
     void visit(Visitor& v) {
         spec_.visit(v);
     }
-    /// The load's force and torque on a thing with this motion. `regions_W`: centres of the regions
-    /// [m].
+    /// Returns the load's force and torque on a thing that moves with `motion`. `regions_W` are the
+    /// centres of the regions [m].
     Wrench act(double share, std::span<const Vec3> regions_W, const Motion& motion) const noexcept;
-    /// Matrix from velocity to the load's force at share 1 [N*s/m]; zero for channels and springs.
+    /// Matrix that maps velocity to the load's force at share 1 [N*s/m]; zero for channels and
+    /// springs.
     Mat3 velocity_gain() const;
-    /// Axis of a curl field; otherwise unset.
+    /// Axis of a curl field; unset for other loads.
     std::optional<Vec3> axis() const;
 
-    /// The load's largest demands on a control loop: norms of the matrices from position and
-    /// velocity to its force, and its largest force and torque.
+    /// The greatest demands that the load makes on a control loop: norms of the matrices that map
+    /// position and velocity to its force, and its largest force and torque.
     struct Demand {
-        double stiffness = 0;  ///< including the contribution of the fading [N/m]
+        double stiffness = 0;  ///< largest stiffness, including that due to fading [N/m]
         double damping = 0;    ///< [N*s/m]
         double driving = 0;    ///< largest negative damping, which amplifies motion [N*s/m]
-        double force = 0;      ///< at rest; infinite if the force grows with the distance [N]
-        double torque = 0;     ///< [N*m]
-        bool holds = false;    ///< the load holds a hand in place, so may be as stiff as possible
-        bool springs = false;  ///< the force is proportional to displacement, not speed
+        double force = 0;  ///< largest force at rest; infinite if the force grows with distance [N]
+        double torque = 0;  ///< [N*m]
+        /// The load holds a hand in place and may be as stiff as the device allows.
+        bool holds = false;
+        bool springs = false;  ///< the force is proportional to displacement rather than speed
     };
     Demand demand() const;
 
@@ -250,9 +256,9 @@ class Load {
 
     LoadSpec spec_;
     Shape shape_ = Shape::point;
-    Vec3 direction_ = Vec3::UnitZ();  // e, direction of a line, or normal of a plane
-    bool between_ = false;            // the line leads from one region to another
-    int origin_ = -1;                 // region of p0, or of the line's start
+    Vec3 direction_ = Vec3::UnitZ();  // axis e, direction of the line, or normal of the plane
+    bool between_ = false;            // whether the line is given by two regions
+    int origin_ = -1;                 // index of the region at p0 or at the start of the line
 };
 
 }  // namespace dihaptic::task

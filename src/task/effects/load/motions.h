@@ -1,4 +1,4 @@
-// Stores the motion of bodies and handles in the last ticks, for loads with a delay.
+// Stores the motion of bodies and handles during the last few ticks, for loads with a delay.
 #pragma once
 
 #include <algorithm>
@@ -13,21 +13,22 @@ namespace dihaptic::task {
 
 struct Motion {
     Vec3 p_W = Vec3::Zero();  ///< position of the handle, or of the body's origin [m]
-    Vec3 v_W = Vec3::Zero();  ///< velocity of that point [m/s]
+    Vec3 v_W = Vec3::Zero();  ///< velocity of the handle or of the body's origin [m/s]
 };
 
-/// Things have the same indices as bodies in the Frame: the scene's bodies, then the fingers'
-/// handles. Once constructed, Motions allocates nothing.
+/// Things are numbered as bodies are in the Frame: the scene's bodies, then the fingers' handles.
+/// Motions does not allocate after construction.
 class Motions {
   public:
-    /// `longest`: the longest delay [s].
+    /// `longest` is the longest delay of any load [s].
     Motions(size_t bodies, size_t fingers, double longest, double tick)
         : bodies_(bodies),
           tick_(tick),
           rows_(static_cast<size_t>(ticks(longest)) + 1, std::vector<Motion>(bodies + fingers)),
           known_(bodies + fingers, 0) {}
 
-    /// Starts a tick: stores the handles of this tick, and the bodies at the end of the last one.
+    /// Starts a tick: stores the motion of the handles in this tick and of the bodies at the end of
+    /// the previous tick.
     void add(const frame::Frame& last, std::span<const frame::Handle> handles) noexcept {
         now_ = (now_ + 1) % rows_.size();
         for (size_t i = 0; i < bodies_ && last.sequence >= 0; ++i)
@@ -42,8 +43,8 @@ class Motions {
     }
     void forget() noexcept { std::fill(known_.begin(), known_.end(), 0); }
 
-    /// Motion of the thing `delay` [s] ago, or its oldest known motion if that is more recent; null
-    /// if none is known.
+    /// Motion of the thing `delay` [s] ago, or its oldest known motion if that is more recent. Null
+    /// if no motion is known.
     const Motion* of(int thing, double delay) const noexcept {
         const auto i = static_cast<size_t>(thing);
         if (known_[i] == 0) return nullptr;
@@ -60,9 +61,9 @@ class Motions {
 
     size_t bodies_;
     double tick_;
-    std::vector<std::vector<Motion>> rows_;  // a ring
-    std::vector<size_t> known_;              // by thing: number of valid rows
-    size_t now_ = 0;                         // row for this tick
+    std::vector<std::vector<Motion>> rows_;  // ring buffer of rows
+    std::vector<size_t> known_;              // number of valid rows for each thing
+    size_t now_ = 0;                         // index of the row for the current tick
 };
 
 }  // namespace dihaptic::task

@@ -8,8 +8,8 @@
 namespace dihaptic::task {
 namespace {
 
-/// Bit mask of the names "proxies", "object" and "target"; an unknown name is an error and sets no
-/// bit.
+/// Returns the bit mask for the names "proxies", "object" and "target". An unknown name is an error
+/// and sets no bit.
 uint32_t moves_of(const VisualSpec& visual, Diagnostics& diagnostics) {
     const std::vector<std::string> names{"proxies", "object", "target"};
     uint32_t moves = 0;
@@ -29,7 +29,7 @@ bool shifts(const VisualSpec& visual) {
     return visual.shift != FormulaVec3{};
 }
 
-/// A map that only adds a shift, a delay or noise needs no centre.
+/// Whether the map needs a centre; a map that only adds a shift, a delay or noise does not.
 bool has_centre(const VisualSpec& visual) {
     return (!displaces(visual) && !shifts(visual)) || !visual.about.empty() ||
            !visual.toward.empty() || visual.angle != 0 || visual.scale != kNoFactors ||

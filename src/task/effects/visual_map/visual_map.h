@@ -1,9 +1,9 @@
 // A visual map: the difference between displayed and true motion. At share s, a point p is shown at
 //
-//     c + R(s angle, axis) (1 + s (scale - 1)) (p - c)      c: a region's centre; or on a line,
-//     c + |p - c| e                                         e: from c toward another region
+//     c + R(s angle, axis) (1 + s (scale - 1)) (p - c)      c is a region's centre; or, on a line,
+//     c + |p - c| e                                         e points from c toward another region
 //
-// and then displaced by s times a shift.
+// and then displaced by s times the shift.
 #pragma once
 
 #include <optional>
@@ -21,22 +21,24 @@ namespace dihaptic::task {
 class Names;
 class VisualEffect;
 
-/// A change of displayed motion: scaling and rotation about a region's centre, or projection onto
-/// the straight line to another region.
+/// A transformation of displayed motion: scaling and rotation about a region's centre, or
+/// projection onto the straight line to another region.
 struct VisualSpec {
     using Effect = VisualEffect;
 
-    std::vector<std::string> moves;  ///< proxies, object, target
+    /// Displayed objects that move: any of proxies, object and target.
+    std::vector<std::string> moves;
     Ref<Region> about;
-    FormulaVec3 scale{1, 1, 1};  ///< along the world axes
+    FormulaVec3 scale{1, 1, 1};  ///< factors on displayed motion along the world axes
     std::optional<Vec3> axis;    ///< axis of the rotation
     Formula angle = 0;           ///< angle of the rotation, right-handed [rad]
-    Ref<Region> toward;          ///< motion is shown on the line from `about` to this region, at
-                                 ///< its true distance from `about`
-    Formula size = 1;            ///< ratio of the object's displayed size to its true size
-    Formula delay = 0;           ///< display delay of proxies and object [s]
-    FormulaVec3 shift{};         ///< displacement of what is shown, in W [m]
-    Vec3 noise = Vec3::Zero();   ///< SD of noise on displayed positions, in W [m]
+    Ref<Region> toward;   ///< region at the end of the line on which motion is shown, at its true
+                          ///< distance from `about`
+    Formula size = 1;     ///< ratio of the object's displayed size to its true size
+    Formula delay = 0;    ///< display delay of the proxies and the object [s]
+    FormulaVec3 shift{};  ///< displacement of the displayed objects in the world frame W [m]
+    Vec3 noise = Vec3::Zero();  ///< standard deviation of the noise on displayed positions along
+                                ///< the axes of W [m]
     Place place;
 
     template <class Visitor>
@@ -75,18 +77,18 @@ struct VisualSpec {
     }
 };
 
-/// Adds descriptions of the changes and their sizes, for a report.
+/// Appends descriptions of the changes and their sizes to `out`, for a report.
 void say(const VisualSpec& spec, std::vector<std::string>& out);
 
 class VisualEffect {
   public:
-    /// Problems in the spec go to `diagnostics`.
+    /// Problems in the spec are added to `diagnostics`.
     VisualEffect(const VisualSpec& spec, const Names& names, const scene::Scene& scene,
                  Diagnostics& diagnostics);
 
     /// The axis of the map's rotation; unset if there is no rotation.
     std::optional<Vec3> axis() const;
-    /// Upper bound of the map's delay [s].
+    /// Upper bound on the map's delay [s].
     double longest_delay() const;
     void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                frame::TaskFrame& out) const noexcept;
@@ -99,7 +101,7 @@ class VisualEffect {
     void check(Diagnostics& diagnostics) const;
 
     VisualSpec spec_;
-    uint32_t moves_ = 0;  // bitwise sum of frame::Moves
+    uint32_t moves_ = 0;  // bitwise OR of frame::Moves values
     int object_ = -1;
     Vec3 axis_ = Vec3::UnitZ();
 };

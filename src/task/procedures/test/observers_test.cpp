@@ -1,5 +1,5 @@
-// Tests procedures and fits on two hundred simulated observers: estimates have no bias, and
-// intervals contain the truth as often as they claim.
+// Tests procedures and fits on two hundred simulated observers: the estimates must be unbiased, and
+// the intervals must contain the true threshold as often as they claim.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ std::vector<double> grid(double first, double last, double step) {
     return values;
 }
 
-/// Errors of an estimate over all observers, in SDs of their psychometric functions.
+/// Errors of an estimate over all observers, in units of the SD of their psychometric functions.
 struct Judge {
     const char* name;
     double bias = 0;
@@ -44,7 +44,7 @@ struct Judge {
     }
 };
 
-/// A random observer of two-alternative choices, who sometimes lapses.
+/// Returns a random observer who chooses between two alternatives and sometimes lapses.
 model::Psychometric observer(Random& random) {
     return {model::Sigmoid::normal, random.uniform(1, 3), random.uniform(0.7, 1.4), 0.5, 0.02};
 }
@@ -110,7 +110,7 @@ TEST(Observers, Quest) {
     Random random(3, "observers");
     Judge threshold{"quest"};
     for (int i = 0; i < kObservers; ++i) {
-        // a Weibull function of the slope that QUEST assumes, with its threshold at 82 %
+        // a Weibull function with the slope that QUEST assumes, and with its threshold at 82 %
         model::Psychometric truth{model::Sigmoid::weibull_log10, random.uniform(-1.5, -0.5), 3.5,
                                   0.5, 0.005};
         Procedure procedure(Quest({.prior_mean = -1, .prior_sd = 1, .trials = 60}));

@@ -1,4 +1,4 @@
-// Tests what all kinds of procedures have in common.
+// Tests the properties that all kinds of procedures have in common.
 #include "task/procedures/procedure.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ struct Trial {
     bool yes;
 };
 
-/// Runs a procedure until it is done, with an observer's answers.
+/// Runs a procedure until it is done, using the answers of an observer.
 std::vector<Trial> run(Procedure& procedure, uint64_t seed) {
     Random random(seed, "observer");
     std::vector<Trial> trials;

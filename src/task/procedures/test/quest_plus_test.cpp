@@ -17,7 +17,8 @@ std::vector<double> range(double first, double last, double step = 1) {
     return values;
 }
 
-/// Gives the answers ('C': correct), and checks that each trial is at the paper's level.
+/// Gives the answers ('C' for correct), and checks that the level of each trial is the one in the
+/// paper.
 void expect_run(QuestPlus& quest, const std::vector<double>& placements,
                 const std::string& answers) {
     ASSERT_EQ(placements.size(), answers.size());
@@ -27,7 +28,8 @@ void expect_run(QuestPlus& quest, const std::vector<double>& placements,
     }
 }
 
-/// Settings for contrast in dB, as in the paper. Its slopes refer to levels / 20, ours to levels.
+/// Returns settings for contrast in dB, as in the paper. The paper's slopes refer to levels / 20,
+/// whereas ours refer to levels.
 QuestPlusSettings contrast(std::vector<double> slopes_per_20_db, std::vector<double> lapses) {
     for (double& s : slopes_per_20_db) s /= 20;
     return {.levels = range(-40, 0),
@@ -37,7 +39,7 @@ QuestPlusSettings contrast(std::vector<double> slopes_per_20_db, std::vector<dou
             .trials = 200};
 }
 
-// Watson (2017): the runs of the paper's examples, trial by trial, and the modes at their ends.
+// The runs of the examples in Watson (2017), trial by trial, and the modes at the end of each run.
 
 TEST(QuestPlus, RepeatsWatsonsRunForThreshold) {
     QuestPlus quest(contrast({3.5}, {0.02}));
@@ -108,7 +110,7 @@ TEST(QuestPlus, ExpectedEntropyIsThatOfThePosteriorsOfBothAnswers) {
             double expected = 0;
             for (const bool yes : {true, false}) {
                 QuestPlus after = quest;
-                // probability of this answer, by its definition: sum of prior times likelihood
+                // probability of this answer by definition, i.e. the sum of prior times likelihood
                 double share = 0;
                 size_t cell = 0;
                 for (const double t : quest.settings().thresholds)

@@ -12,7 +12,7 @@ namespace dihaptic::task::quest_test {
 namespace {
 
 TEST(Quest, RepeatsTheRunOfTheReferenceImplementation) {
-    // a run in which Pelli's QUEST, in PsychoPy, gave these levels
+    // answers of a run in which Pelli's QUEST, in PsychoPy, gave the levels below
     const std::string answers = "11011101110111101111";
     const double placements[] = {-0.647661, -1.106588, -1.474511, -0.581121, -0.831401};
     Quest quest({.prior_mean = -1, .prior_sd = 2, .trials = 20});
@@ -38,7 +38,7 @@ TEST(Quest, StartsFromItsPrior) {
     const Quest quest({.prior_mean = 0.3, .prior_sd = 0.5});
     EXPECT_NEAR(quest.estimate().threshold, 0.3, 1e-12);
     EXPECT_NEAR(quest.sd(), 0.5, 1e-5);
-    // quantiles are those of a normal distribution, to half a grain
+    // the quantiles are those of a normal distribution, to within half a grain
     EXPECT_NEAR(quest.estimate().low, 0.3 - 1.96 * 0.5, 0.006);
     EXPECT_NEAR(quest.estimate().high, 0.3 + 1.96 * 0.5, 0.006);
 }

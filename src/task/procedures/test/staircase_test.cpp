@@ -11,7 +11,7 @@
 namespace dihaptic::task::staircase_test {
 namespace {
 
-/// Levels of the trials with these answers ('1' for "yes"), and the level after them.
+/// Returns the levels of the trials with these answers ('1' for "yes"), followed by the next level.
 std::vector<double> levels(Staircase& staircase, const std::string& answers) {
     std::vector<double> out = {staircase.level()};
     for (const char answer : answers) {
@@ -25,7 +25,7 @@ TEST(Staircase, GoesDownAfterKAndUpAfterOne) {
     Staircase staircase({.down_after = 2, .start = 10, .trials = 100});
     EXPECT_EQ(levels(staircase, "11110101101"),
               (std::vector<double>{10, 10, 9, 9, 8, 9, 9, 10, 10, 9, 10, 10}));
-    // bottom at 8, top at 10, bottom at 9
+    // a minimum at 8, a maximum at 10, and a minimum at 9
     EXPECT_EQ(staircase.reversals(), (std::vector<double>{8, 10, 9}));
 }
 
@@ -63,31 +63,31 @@ TEST(Staircase, EstimatesFromAnEvenNumberOfReversals) {
     Staircase staircase({.down_after = 1, .start = 10, .trials = 100, .skipped_reversals = 1});
     levels(staircase, "110");
     EXPECT_TRUE(std::isnan(staircase.estimate().threshold));
-    levels(staircase, "0110");  // reversals 8, 10, 8
+    levels(staircase, "0110");  // reversals at 8, 10, 8
     EXPECT_EQ(staircase.estimate().threshold, 9);
-    levels(staircase, "001");  // adds 11; of three reversals, the first is left out
+    levels(staircase, "001");  // adds 11; the first of three is left out
     EXPECT_EQ(staircase.reversals(), (std::vector<double>{8, 10, 8, 11}));
     EXPECT_EQ(staircase.estimate().threshold, 9.5);
     EXPECT_TRUE(std::isnan(staircase.estimate().low));
 }
 
 TEST(Staircase, SettlesWhereThePublishedRatiosSay) {
-    // Garcia-Perez 1998: 77.85, 80.35, 83.15, 85.84 % for 1 to 4-down
+    // published by Garcia-Perez (1998): 77.85, 80.35, 83.15, 85.84 % for 1- to 4-down
     const double published[] = {0.7785, 0.8035, 0.8315, 0.8584};
     for (int k = 1; k <= 4; ++k) {
         const double ratio = kGarciaPerez[static_cast<size_t>(k - 1)];
         EXPECT_NEAR(settling_probability(k, ratio), published[k - 1], 5e-5) << k;
         EXPECT_NEAR(down_over_up_for(k, settling_probability(k, ratio)), ratio, 1e-15);
     }
-    // equal steps: 50, 70.7, 79.4 %
+    // with equal steps: 50, 70.7, 79.4 %
     EXPECT_EQ(settling_probability(1, 1), 0.5);
     EXPECT_NEAR(settling_probability(2, 1), 0.707, 5e-4);
     EXPECT_NEAR(settling_probability(3, 1), 0.794, 5e-4);
-    // Kaernbach 1991: a step up three times the step down finds 75 %
+    // Kaernbach (1991): with a step up that is three times the step down, 75 %
     EXPECT_DOUBLE_EQ(down_over_up_for(1, 0.75), 1.0 / 3);
 }
 
-/// Probability of "yes" at the mean reversal of long staircases.
+/// Returns the probability of "yes" at the mean reversal of long staircases.
 double probability_at_reversals(int k, double down_over_up, double step_up) {
     const model::Psychometric observer{model::Sigmoid::normal, 0, 1, 0.5, 0};
     Random random(5, "observer");
