@@ -1,6 +1,7 @@
 """Power from a pool of simulated people, against closed forms and against samples that are drawn here."""
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -77,6 +78,12 @@ class Draws(unittest.TestCase):
         unequal = [3 * NORMAL, NORMAL]
         self.assert_power(find_effect(unequal, [10, 30], 4000, "welch", 0.05, 1), 0.05)
         self.assertGreater(find_effect(unequal, [10, 30], 4000, "t", 0.05, 1).power, 0.15)  # which the t test does not
+
+    def test_people_who_are_all_alike_find_no_effect(self):
+        found = find_effect([np.repeat([1.0, 0.0], [20, 4])], [3], 4000, "t", 0.05, 1)
+        self.assertEqual(found.power, 0)
+        self.assertGreater(found.untested, 0.5)
+        self.assertTrue(np.isfinite(find_effect([np.repeat([1.0, 0.0], [20, 4])] * 2, [3, 3], 1000, "welch", 0.05, 1).half_width))
 
     def test_without_an_effect_one_test_in_twenty_finds_one(self):
         for seed in range(soak.of(1, 5)):
@@ -158,6 +165,8 @@ class Pools(unittest.TestCase):
             ("mean(*a)", "must be a name"),
             ("means(static_grip_N)", "Did you mean 'mean'"),
             ("mean(late, group=a) + mean(late, group=b)", "not one group's value less another"),
+            ("mean(late) * 1" + 400 * "0", "cannot be part of an effect"),
+            ("True * mean(late)", "cannot be part of an effect"),
             ("mean(x, group=a) - mean(x, group=b) - mean(x, group=c)", "names 3 groups"),
         ):
             with self.subTest(text):
@@ -168,17 +177,52 @@ class Pools(unittest.TestCase):
             ("mean(static_grip_N, condition=heavy)", "Write block=heavy: it is a value of that column. The column condition is"),
             ("mean(static_grip_N, blocks=heavy)", "Did you mean 'block'"),
             ("mean(outcome)", "has words"),
+            ("mean(safety_margin, group=a)", "has no groups"),
+            ("mean(safety_margin) + 1 / 0", "cannot be computed"),
+            ("mean(reach_time_s)", "is empty in all of these rows"),
             ("mean(static_grip_N, table=lift)", "is not a table of these people"),
         ):
             with self.subTest(text):
                 self.refused(what, lambda text=text: Effect(text).of_people(self.data))
         for options, what in (
-            ({"n": [2]}, "at least 3"), ({"n": []}, "at least 3"), ({"draws": 5}, "at least 100"),
-            ({"alpha": 2}, "out of its range"),
+            ({"n": [2]}, "from 3 to"), ({"n": []}, "from 3 to"), ({"n": [10**8]}, "from 3 to"), ({"draws": 5}, "from 100"),
+            ({"alpha": 2}, "from 0.000001"), ({"alpha": 1e-300}, "from 0.000001"), ({"ratio": 11}, "from 0.1"),
+            ({"seed": -1}, "negative"),
             ({"test": "welch"}, "is not a test of one value of each person"), ({"attrition": 0.9}, "fewer than 3"),
+            ({"n": [30], "attrition": 0.99}, "300 must be recruited"),
         ):  # fmt: skip
             with self.subTest(options):
                 self.refused(what, lambda options=options: dh.power(self.pool, DIFFERENCE, **options))
+
+    def test_groups_are_named_from_left_to_right(self):
+        effect = Effect("mean(x, group=a) / mean(y, group=a) - mean(x, group=b)")
+        self.assertEqual(effect.groups, ["a", "b"])
+        self.assertEqual(Effect("-mean(x, group=b) - mean(x, group=a)").groups, ["b", "a"])
+
+    def test_an_effect_that_no_test_can_find_is_refused(self):
+        self.refused("is infinite for sim-001", lambda: dh.power(self.pool, "1 / mean(slips)"))
+        self.refused("is the same for all people", lambda: dh.power(self.pool, "mean(block_num) / 10"))
+
+    def test_a_pool_that_has_grown_is_used_whole(self):
+        """The tables of a report are made again when people have been added since."""
+        file = Path(self.folder.name, "short.yaml")
+        text = Path("experiments/rotation-reversal.yaml").read_text().replace("../", f"{Path.cwd()}/")
+        file.write_text(re.sub(r"repeats: \d+", "repeats: 2", text))
+        options = {"n": [4], "draws": 100, "out": f"{self.folder.name}/grown", "progress": False}
+        first = dh.power(str(file), "mean(late)", people=10, **options)
+        self.assertEqual(len(first.sides[0]), 10)
+        self.assertEqual(len(dh.power(str(file), "mean(late)", people=11, **options).sides[0]), 11)
+
+    def test_the_page_warns_of_what_speaks_against_it(self):
+        def page(effect, name):
+            return dh.power(self.pool, effect, [4], draws=100).save(Path(self.folder.name, name)).read_text()
+
+        self.assertIn("The effect compares people with a fixed number", page("mean(preload_s) - 0.09", "fixed"))
+        self.assertIn("cannot tell this effect from zero", page(f"mean(preload_s) - {self.mean_preload()}", "none"))
+        self.refused("is the folder of a rehearsal", lambda: dh.power(self.pool, "mean(preload_s)", [4]).save(self.pool))
+
+    def mean_preload(self):
+        return Effect("mean(preload_s)").of_people(self.data).mean()
 
     def test_a_pool_is_rehearsed_once_and_continued(self):
         out = f"{self.folder.name}/made"
@@ -223,16 +267,16 @@ class Pools(unittest.TestCase):
             self.assertIn(words, text)
         names = sorted(path.name for path in page.parent.iterdir())
         kinds = ("csv", "html", "pdf", "png", "py", "svg")
-        self.assertEqual(names, ["people.csv", "power-by-n.csv", *(f"power.{kind}" for kind in kinds)])
+        self.assertEqual(names, ["effect-of-people.csv", "power-by-n.csv", *(f"power.{kind}" for kind in kinds)])
         before = (page.parent / "power.svg").read_bytes()
         (page.parent / "power.svg").unlink()
         subprocess.run([sys.executable, page.parent / "power.py"], check=True)
         self.assertEqual((page.parent / "power.svg").read_bytes(), before)
-        people = pd.read_csv(page.parent / "people.csv")
+        people = pd.read_csv(page.parent / "effect-of-people.csv")
         self.assertEqual(people.person.tolist(), self.data.people)
         self.assertAlmostEqual(people.effect.mean(), result.size, delta=1e-9)
         self.assertEqual(result.table.analysed.tolist(), [4, 9])
-        self.assertIn("How much preload s scatters over trials and over people was never compared", text)
+        self.assertIn("How much preload_s scatters over trials and over people was never compared", text)
         alike = dh.power(self.pool, "mean(loading_s, trial_num=3) - mean(loading_s, trial_num=4)", [4], draws=100)
         self.assertIn("is larger than experiments find", alike.save(Path(self.folder.name, "alike")).read_text())
 

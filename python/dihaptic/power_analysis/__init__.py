@@ -17,13 +17,19 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..errors import NotThere, error
+import numpy as np
+
+from ..errors import error
 from ..program import call
 from ..rehearsing import rehearse
 
 if TYPE_CHECKING:
     from .result import Power
 
+#: Largest number of people of a sample.
+_MOST_PEOPLE = 10_000
+#: Tables that a report makes of each session.
+_REPORTED = ["fits", "adaptation", "thresholds"]
 #: Least people of a pool, or of one of its groups, from whom samples are drawn.
 _LEAST = 10
 
@@ -67,7 +73,7 @@ def power(
     from .result import Power
 
     asked = Effect(effect)
-    _check(n, draws, alpha, ratio, attrition)
+    _check(n, draws, alpha, ratio, attrition, seed)
     name, _ = test_named(test, asked.is_between)
     folder = Path(path)
     if not folder.is_dir():
@@ -75,30 +81,38 @@ def power(
         pool = rehearse(path, people, jobs=jobs, population=population, seed=seed, out=into / "pool", progress=progress)
         folder = pool.folder
     data = read_pool(folder)
-    try:
-        sides = asked.sides(data)
-    except NotThere:  # maybe in a table that only a report makes
-        if "report" in str(path) or any(data.has(table) for table in ("fits", "thresholds")):
-            raise
-        call(["report", str(folder), "--tables"], progress=False)
+    own = {str(column) for table in data.tables if table not in _REPORTED for column in data.table(table)}
+    lacking = [each for each in data.sessions if not any((each.folder / f"{table}.csv").is_file() for table in _REPORTED)]
+    if lacking and set(asked.columns) - own:  # people were added since the last report, or there was none
+        call(["report", str(folder), "--tables"], progress=progress)
         data = read_pool(folder)
-        sides = asked.sides(data)
+    sides = asked.sides(data)
     for side, group in zip(sides, asked.groups or [""]):
         if len(side) < _LEAST:
             of = f"group {group} of the pool" if group else "the pool"
             what = f"{of} has {len(side)} people whose value is known"
             raise error(what, f"Rehearse more people: at least {_LEAST}.", key=effect)
-        if side.std() == 0:
+        if not np.isfinite(side).all():
+            some = ", ".join(side.index[~np.isfinite(side)][:8])
+            raise error(f"is infinite for {some}", "Divide by a number that is never zero.", key=effect)
+        if side.std() <= 1e-9 * abs(side.mean()):
             raise error("is the same for all people, so that it needs no test", "Name a column that differs.", key=effect)
-    return Power(data, asked, sides, list(n), draws, name, alpha, ratio, attrition, seed)
+    result = Power(data, asked, sides, list(n), draws, name, alpha, ratio, attrition, seed)
+    if min(n) < result.fewest:
+        raise error(f"leaves fewer than 3 people for a test; {result.fewest} must be recruited", "Recruit more.", key="n")
+    return result
 
 
-def _check(n: Sequence[int], draws: int, alpha: float, ratio: float, attrition: float) -> None:
-    if not n or any(int(each) != each or each < 3 for each in n):
-        raise error("must be whole numbers of at least 3", "Write e.g. n=[8, 12, 16, 24].", key="n")
-    if any((1 - attrition) * min(1, ratio) * each < 3 for each in n):
-        raise error("leaves fewer than 3 people", "Recruit more, or lose fewer.", key="attrition")
-    if draws < 100:
-        raise error("must be at least 100", "500 samples tell the power within about 0.04.", key="draws")
-    if not 0 < alpha < 1 or not 0 < ratio <= 10 or not 0 <= attrition < 1:
-        raise error("is out of its range", "alpha and attrition are shares; ratio is above 0, at most 10.", key="alpha")
+def _check(n: Sequence[int], draws: int, alpha: float, ratio: float, attrition: float, seed: int) -> None:
+    if not n or any(int(each) != each or not 3 <= each <= _MOST_PEOPLE for each in n):
+        raise error(f"must be whole numbers from 3 to {_MOST_PEOPLE}", "Write e.g. n=[8, 12, 16, 24].", key="n")
+    if not 100 <= draws <= 1_000_000:
+        raise error("must be from 100 to a million", "500 samples tell the power within about 0.04.", key="draws")
+    if not 1e-6 <= alpha <= 0.5:
+        raise error("must be from 0.000001 to 0.5", "0.05 is usual.", key="alpha")
+    if not 0.1 <= ratio <= 10:
+        raise error("must be from 0.1 to 10", "It is the number of people of the second group for one of the first.", key="ratio")
+    if not 0 <= attrition < 1:
+        raise error("must be a share below 1", "Write e.g. 0.1 for a tenth.", key="attrition")
+    if seed < 0:
+        raise error("must not be negative", "Write e.g. 1.", key="seed")

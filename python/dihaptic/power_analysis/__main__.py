@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import sys
 from pathlib import Path
 
@@ -26,18 +27,23 @@ def main(words: list[str]) -> int:
     asked = parser.parse_args(words)
     from .page import warnings_of  # needs matplotlib
 
-    out = Path(asked.out or f"power/{Path(asked.path).absolute().stem}_{asked.seed}")
+    path = Path(asked.path).absolute()
+    name = path.parent.name if path.name == "pool" else f"{path.stem}_{asked.seed}"
+    out = Path(asked.out or f"power/{name}")
     try:
         result = power(
             asked.path, asked.effect, asked.n, people=asked.people, draws=asked.draws, test=asked.test, alpha=asked.alpha,
             ratio=asked.ratio, attrition=asked.attrition, population=asked.population, seed=asked.seed, jobs=asked.jobs, out=out,
         )  # fmt: skip
-        page = result.save(out)
+        page = result.save(out / _in_a_name(asked.effect))
     except KeyboardInterrupt:
         print("interrupted: the people who are done are kept, and the same command continues", file=sys.stderr)
         return 130
     except Error as why:
         print("\n".join(problem.text() for problem in why.problems), file=sys.stderr)
+        return 2
+    except OSError as why:
+        print(f"{out}: error: cannot be written: {why.strerror}. Name another folder with --out.", file=sys.stderr)
         return 2
     shown = result.table[["n", "power", "low", "high", "wrong_sign", "exaggeration", "half_width"]]
     print(shown.to_string(index=False, float_format=lambda value: f"{value:.3g}", na_rep="-"))
@@ -46,6 +52,13 @@ def main(words: list[str]) -> int:
         print(f"warning: {text}", file=sys.stderr)
     print(page)
     return 0
+
+
+def _in_a_name(effect: str) -> str:
+    """An effect as the name of a folder, so that another effect does not replace its page."""
+    for sign, word in ((" - ", " minus "), (" + ", " plus "), (" * ", " times "), (" / ", " over ")):
+        effect = effect.replace(sign, word)
+    return re.sub(r"\W+", "-", effect).strip("-")[:120]
 
 
 if __name__ == "__main__":

@@ -89,7 +89,11 @@ def find_effect(
             samples.append(values[rng.integers(0, len(values), (n, some))])
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")  # a sample of the same person again and again has no test
-            p.append(p_of(samples[0], samples[1] if len(samples) == 2 else None))
+            some_p = p_of(samples[0], samples[1] if len(samples) == 2 else None)
+        if test != "wilcoxon":  # what scatters less than its rounding errors has no t
+            scatter, size = np.sum([s.std(0) for s in samples], 0), np.sum([np.abs(s).max(0) for s in samples], 0)
+            some_p = np.where(scatter > 1e-9 * size, some_p, np.nan)
+        p.append(some_p)
         estimates.append(samples[0].mean(0) - (samples[1].mean(0) if len(samples) == 2 else 0))
         halves.append(_half_width(samples, test, alpha))
     all_p = np.concatenate(p)
@@ -104,7 +108,7 @@ def find_effect(
         wrong_sign=float((found * true < 0).mean()) if len(found) and true != 0 else float("nan"),
         exaggeration=float(np.abs(found).mean() / abs(true)) if len(found) and true != 0 else float("nan"),
         untested=float(np.isnan(all_p).mean()),
-        half_width=float(np.median(np.concatenate(halves))),
+        half_width=float(np.nanmedian(np.concatenate(halves))) if test != "wilcoxon" else float("nan"),
     )
 
 
@@ -126,19 +130,21 @@ def _half_width(samples: list[Array], test: str, alpha: float) -> Array:
     return np.asarray(stats.t.ppf(1 - alpha / 2, free) * np.sqrt(parts[0] + parts[1]))
 
 
-def smallest_size(power_at: Callable[[int], Found], wanted: float, most: int) -> tuple[int | None, int | None, int | None]:
+def smallest_size(
+    power_at: Callable[[int], Found], wanted: float, most: int, least: int = 3
+) -> tuple[int | None, int | None, int | None]:
     """The smallest n at which the power is as large as wanted, and those at which the ends of its interval are: first the one
     that may be enough (upper end), then the one that is probably enough (lower end). None: more than `most`."""
     return (
-        _first(lambda n: power_at(n).power >= wanted, most),
-        _first(lambda n: power_at(n).high >= wanted, most),
-        _first(lambda n: power_at(n).low >= wanted, most),
+        _first(lambda n: power_at(n).power >= wanted, least, most),
+        _first(lambda n: power_at(n).high >= wanted, least, most),
+        _first(lambda n: power_at(n).low >= wanted, least, most),
     )
 
 
-def _first(is_enough: Callable[[int], bool], most: int) -> int | None:
-    """The smallest n from 3 that is enough, if all larger ones are."""
-    below, n = 2, 3
+def _first(is_enough: Callable[[int], bool], least: int, most: int) -> int | None:
+    """The smallest n from `least` on that is enough, if all larger ones are."""
+    below, n = least - 1, least
     while not is_enough(n):
         if n >= most:
             return None

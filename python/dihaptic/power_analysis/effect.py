@@ -49,7 +49,7 @@ class Effect:
         try:
             self._tree = ast.parse(text.strip(), mode="eval").body
         except (SyntaxError, ValueError, RecursionError):
-            raise error("is not an expression", _EXAMPLE, key=text) from None
+            raise error("is not an expression", f"{_EXAMPLE} Conditions are equalities.", key=text) from None
         self._check(self._tree)
         self.groups = list(dict.fromkeys(self._groups_in(self._tree)))
         if not any(isinstance(node, ast.Call) for node in ast.walk(self._tree)):
@@ -73,6 +73,13 @@ class Effect:
     def is_between(self) -> bool:
         """Whether it compares two groups of people; or else each person has a value, which is compared with zero."""
         return len(self.groups) == 2
+
+    @property
+    def has_fixed_value(self) -> bool:
+        """Whether a number is added to a person's value, or subtracted from it, to be compared with zero."""
+        tree = self._tree
+        is_sum = isinstance(tree, ast.BinOp) and isinstance(tree.op, (ast.Add, ast.Sub))
+        return is_sum and any(isinstance(side, ast.Constant) for side in (tree.left, tree.right))  # type: ignore[attr-defined]
 
     def of_people(self, data: Data) -> pd.Series:
         """The value of each person, by name; of an effect between groups, that of one's own group. NaN: not known. Raises
@@ -105,16 +112,23 @@ class Effect:
             _word(node.args[0])
             for word in node.keywords:
                 _word(word.value)
-        elif not (isinstance(node, ast.Constant) and isinstance(node.value, (int, float))):
+        elif not (isinstance(node, ast.Constant) and type(node.value) in (int, float) and abs(node.value) < 1e100):
             raise error("cannot be part of an effect", _EXAMPLE, key=ast.unparse(node))
 
     def _groups_in(self, tree: ast.expr) -> list[str]:
-        words = [word for node in ast.walk(tree) if isinstance(node, ast.Call) for word in node.keywords]
-        return [str(_word(word.value)) for word in words if word.arg == "group"]
+        if isinstance(tree, ast.Call):
+            return [str(_word(word.value)) for word in tree.keywords if word.arg == "group"]
+        parts = [part for part in ast.iter_child_nodes(tree) if isinstance(part, ast.expr)]  # from left to right
+        return [group for part in parts for group in self._groups_in(part)]
 
     def _value(self, node: ast.expr, data: Data) -> Any:
         if isinstance(node, ast.BinOp):
-            return _OPERATORS[type(node.op)](self._value(node.left, data), self._value(node.right, data))
+            left, right = self._value(node.left, data), self._value(node.right, data)
+            try:
+                with np.errstate(all="ignore"):
+                    return _OPERATORS[type(node.op)](left, right)
+            except ArithmeticError as why:
+                raise error(f"cannot be computed: {why}", "Correct the numbers.", key=self.text) from None
         if isinstance(node, ast.UnaryOp):
             return -self._value(node.operand, data)
         if isinstance(node, ast.Constant):
@@ -136,6 +150,9 @@ def _term(node: ast.Call, data: Data) -> pd.Series:
         if key not in table:
             raise NotThere(key, f"is not a column of {name}", [str(each) for each in table], "")
         levels = table[key].dropna().unique()
+        if key == "group" and not any(str(level) for level in levels):
+            what = "has no groups"
+            raise error(what, "Rehearse a population with groups (--population), or a study.", key=f"{key}={value}")
         numeric = pd.api.types.is_numeric_dtype(table[key])
         same = np.isclose(table[key], float(value)) if numeric and _is_number(value) else table[key].astype(str) == str(value)
         if not same.any():
@@ -146,6 +163,8 @@ def _term(node: ast.Call, data: Data) -> pd.Series:
                 remedy = f"Write {others[0]}={value}: it is a value of that column. {remedy}"
             raise NotThere(f"{key}={value}", f"has no rows in {name}", there, remedy)
         table = table[same]
+    if table[column].isna().all():
+        raise error(f"is empty in all of these rows of {name}", "Name a column that these trials have.", key=column)
     if not pd.api.types.is_numeric_dtype(table[column]):
         raise error("has words, of which there is no statistic", "Name a column of numbers.", key=column)
     known = table[table[column].notna()]

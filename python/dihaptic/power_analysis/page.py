@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,9 +11,9 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from .._facts import version
+from ..errors import error
 from ..figures.saving import is_changed, save, signed, write
 from ..figures.style import COLOURS, QUIET, canvas, drawing
-from ..figures.words import words_of
 from ..reports.page import Page
 from ..reports.results import listed
 from ..reports.simulated import limits_of
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
 #: Measures whose means and spreads over people were compared with people's (src/person/README.md): of rotations.
 _COMPARED = {"baseline", "early", "late", "clamp_first", "clamp_last", "compensation", "catch", "washout_first", "rebound"}
+#: The share of Cohen's d that one person may change without being named.
+_MOST_OF_ONE = 0.25
 #: Cohen's d above which an effect within people is larger than experiments find.
 _LARGE = 3
 #: The width of the power's interval, over pools, above which the pool is called small.
@@ -109,15 +112,19 @@ def write_page(result: Power, folder: Path) -> Path:
         who += " in each group" if result.ratio == 1 else f" of group {result.effect.groups[0]}"
     points = curve(result)
     xlabel = f"{who} who are recruited" if result.attrition else who
+    if (folder / "rehearsal.yaml").exists():
+        raise error("is the folder of a rehearsal", "Name another folder for the power.", file=str(folder))
     script = folder / "power.py"
-    if not is_changed(script):
-        save(draw_power(points, xlabel=xlabel), folder / "power", points)
+    save(draw_power(points, xlabel=xlabel), folder / "power", points)
+    if is_changed(script):
+        warnings.warn(f"{script} has been changed, and is left as it is: run it to draw the figure your way", stacklevel=3)
+    else:
         write(script, _script(xlabel).encode())
     table = result.table
     write(folder / "power-by-n.csv", table.to_csv(index=False).encode())
     people = pd.concat([pd.DataFrame({"person": side.index, "group": group, "effect": side.to_numpy()})
                         for side, group in zip(result.sides, result.effect.groups or [""])])  # fmt: skip
-    write(folder / "people.csv", people.to_csv(index=False).encode())
+    write(folder / "effect-of-people.csv", people.to_csv(index=False).encode())
     simulated = "Simulated. No person took part." if result.data.is_simulated else ""
     page = Page(f"Power: {result.data.title}", simulated, f"Made by dihaptic {version()}.")
     page.heading("Result")
@@ -137,8 +144,11 @@ def write_page(result: Power, folder: Path) -> Path:
         "(type M). Half width: of the confidence interval, the median. Then the power if people's spread were another."
     )
     page.table(_shown(result, who), caption, keys=1)
-    smallest = result.smallest.rename(columns={"n": "smallest n", "may_be": "may be enough", "probably": "probably enough"})
-    caption = "The smallest n with this power, and those from which on the upper and the lower end of its interval reach it."
+    smallest = result.smallest.rename(columns={"n": "smallest n", "may_be": "upper end", "probably": "lower end"})
+    caption = (
+        "The smallest n with this power, and those at which the upper and the lower end of its interval from the number of "
+        "samples reach it. What the pool's size leaves open is more: see the column with other pools."
+    )
     page.table(smallest.astype(object).where(smallest.notna(), None), caption)
     page.heading("What this does not know")
     for text in _NOT_KNOWN:
@@ -150,7 +160,20 @@ def warnings_of(result: Power) -> list[str]:
     """What speaks against using the power as it is."""
     table, everybody = result.table, len(result.data.people)
     out = limits_of(result.data)
-    unknown = [words_of(name) for name in result.effect.columns if name not in _COMPARED]
+    low, high = result.interval
+    if low <= 0 <= high:
+        out.append(
+            f"The pool cannot tell this effect from zero (95 % interval {low:.3g} to {high:.3g}): the power says nothing yet. "
+            "Rehearse more people (--people), or plan with the smallest effect that matters to you."
+        )
+    if result.effect.has_fixed_value:
+        out.append(
+            "The effect compares people with a fixed number. For this, the mean of simulated people must be right, not only "
+            "their differences; means of other schedules than the calibrated one miss those of real people by up to 11 degrees."
+        )
+    out += [f"Left out: {why}." for why in result.data.left_out]
+    out += _drivers(result)
+    unknown = [name for name in result.effect.columns if name not in _COMPARED]
     if unknown and result.data.is_simulated:
         out.append(
             f"How much {listed(unknown)} scatters over trials and over people was never compared with real people. If simulated "
@@ -174,15 +197,31 @@ def warnings_of(result: Power) -> list[str]:
             "alike; they are treated as if they had not found the effect."
         )
     lost = everybody - sum(len(side) for side in result.sides)
-    if lost and not result.effect.is_between:
+    if lost and not (result.effect.is_between and len(set(result.data.table("trials")["group"])) > 2):
         out.append(f"For {lost} of {everybody} people of the pool the effect is not known; they are left out.")
     widest = table.loc[(table["pool_high"] - table["pool_low"]).idxmax()]
     if widest["pool_high"] - widest["pool_low"] > _MOST_DOUBT:
         out.append(
-            f"The pool is small: with other {everybody} people of the population, the power of {widest['n']:.0f} would be "
+            f"The pool is small: with {everybody} other people of the population, the power of {widest['n']:.0f} would be "
             f"between {widest['pool_low']:.2f} and {widest['pool_high']:.2f}. Rehearse more people (--people)."
         )
     return out
+
+
+def _drivers(result: Power) -> list[str]:
+    """Names single people without whom the effect would be quite another one."""
+    out = []
+    for side in result.sides:
+        for person in side.index:
+            rest = side.drop(person)
+            if abs(rest.mean() / rest.std() - side.mean() / side.std()) > _MOST_OF_ONE * abs(side.mean() / side.std()):
+                out.append(person)
+    if not out or result.effect.is_between:
+        return []
+    return [
+        f"Without {listed(out[:8])}, Cohen's d would be another one by more than {100 * _MOST_OF_ONE:.0f} %: look at "
+        "effect-of-people.csv, and at the trials of these people."
+    ]
 
 
 def _shown(result: Power, who: str) -> pd.DataFrame:
@@ -196,5 +235,6 @@ def _shown(result: Power, who: str) -> pd.DataFrame:
     columns["power"] = [f"{row.power:.2f} ({row.low:.2f} to {row.high:.2f})" for row in table.itertuples()]
     columns["with other pools"] = [f"{row.pool_low:.2f} to {row.pool_high:.2f}" for row in table.itertuples()]
     columns |= {name.replace("_", " "): table[name] for name in ("wrong_sign", "exaggeration", "half_width")}
-    columns |= {"spread x 0.7": table["spread_0.7"], "spread x 1.5": table["spread_1.5"]}
+    spreads = zip(table["spread_0.7"], table["spread_1.5"])
+    columns["spread x 0.7, x 1.5"] = [f"{less:.2f}, {more:.2f}" for less, more in spreads]
     return pd.DataFrame(columns)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from scipy import stats
 
 from .._facts import version
 from ..figures.data import Data
@@ -55,6 +56,14 @@ class Power:
         """Cohen's d: the effect over the SD of people, of two groups the pooled one."""
         return self.size / math.sqrt(sum(float(side.var()) for side in self.sides) / len(self.sides))
 
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The 95 % interval of the effect, from the people of the pool (t; of two groups Welch's)."""
+        parts = [float(side.var()) / len(side) for side in self.sides]
+        free = sum(parts) ** 2 / sum(part**2 / (len(side) - 1) for part, side in zip(parts, self.sides))
+        half = float(stats.t.ppf(0.975, free)) * math.sqrt(sum(parts))
+        return self.size - half, self.size + half
+
     def at(self, n: int, spread: float = 1) -> Found:
         """The power of n people who are recruited (in each group). `spread` multiplies the deviations of people."""
         if (n, spread) not in self._known:
@@ -84,13 +93,13 @@ class Power:
     def smallest(self) -> pd.DataFrame:
         """A row for each wanted power, 0.8 and 0.9: the smallest n, and those at which the upper and the lower end of the
         power's interval reach it (may_be, probably). Missing: more than 1000."""
-        rows = [(wanted, *smallest_size(self.at, wanted, MOST)) for wanted in WANTED]
+        rows = [(wanted, *smallest_size(self.at, wanted, MOST, self.fewest)) for wanted in WANTED]
         table = pd.DataFrame(rows, columns=["power", "n", "may_be", "probably"])
         return table.astype({name: "Int64" for name in ("n", "may_be", "probably")})
 
     def save(self, folder: str | Path) -> Path:
-        """Writes power.html, the figure (power.svg, .pdf, .png), power.csv, and people.csv with each person's effect, into a
-        folder; returns the page. Raises Error."""
+        """Writes power.html, the figure (power.svg, .pdf, .png), power.csv, power-by-n.csv, and effect-of-people.csv into a
+        folder; returns the page. Raises Error, also for the folder of a rehearsal."""
         from .page import write_page
 
         return write_page(self, Path(folder))
@@ -102,12 +111,20 @@ class Power:
     def _sizes(self, n: int) -> list[int]:
         """How many people remain of n who are recruited, in each group."""
         recruited = [n, round(self.ratio * n)] if self.effect.is_between else [n]
-        return [max(3, math.floor((1 - self.attrition) * each + 1e-9)) for each in recruited]
+        return [math.floor((1 - self.attrition) * each + 1e-9) for each in recruited]
+
+    @cached_property
+    def fewest(self) -> int:
+        """The smallest number of people who must be recruited, so that three in each group are analysed."""
+        n = 3
+        while min(self._sizes(n)) < 3:
+            n += 1
+        return n
 
     def _interval_of_pool(self, n: int) -> tuple[float, float]:
         """The middle 95 % of the power, if the pool were other people of the same population."""
         rng = np.random.default_rng(self.seed)
-        draws = max(100, self.draws // 5)
+        draws = max(200, self.draws // 2)
         powers = []
         for i in range(_POOLS):
             pool = [values[rng.integers(0, len(values), len(values))] for values in self._pool]
@@ -124,17 +141,21 @@ class Power:
         if self.effect.is_between:
             each = " in each group" if self.ratio == 1 else " in the first group"
         population = self.data.sample.population or "not named"
+        low, high = self.interval
         text = (
-            f"The effect {self.effect.text} was simulated with {who} (population {population}, dihaptic {version()}): "
-            f"{self.size:.3g}, Cohen's d = {self.standardised:.2f}. {self.draws} samples of each size were drawn from them with "
-            f"replacement, and tested by {tests[self.test]} (two-sided, alpha = {self.alpha:g}; seed {self.seed})."
+            f"The effect {self.effect.text} was computed from {who} (population {population}, dihaptic {version()}): "
+            f"{self.size:.3g} (95 % interval {low:.3g} to {high:.3g}), Cohen's d = {self.standardised:.2f}. {self.draws} samples "
+            f"of each size were drawn from them with replacement, and tested by {tests[self.test]} (two-sided, alpha = {self.alpha:g}; seed {self.seed})."
         )
         for row in self.smallest.itertuples():
             if pd.isna(row.n):
                 text += f" More than {MOST} people{each} are needed for a power of {100 * row.power:.0f} %."
             else:
-                probably = f" ({row.may_be} to {row.probably})" if not pd.isna(row.probably) else ""
-                text += f" {row.n} people{each}{probably} are needed for a power of {100 * row.power:.0f} %."
+                pool_low, pool_high = self._interval_of_pool(int(row.n))
+                text += (
+                    f" With {row.n} people{each} the power reaches {100 * row.power:.0f} %; with other pools of this size it would "
+                    f"be between {pool_low:.2f} and {pool_high:.2f}."
+                )
         if self.effect.is_between and self.ratio != 1:
             text += f" The second group, {self.effect.groups[1]}, has {self.ratio:g} times as many."
         if self.attrition:
