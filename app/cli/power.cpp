@@ -98,7 +98,7 @@ void add_power(CLI::App& app) {
     command
         ->add_option("--ratio", options->ratio, "people of the second group for one of the first")
         ->capture_default_str();
-    command->add_option("--attrition", options->attrition, "share of the people who are lost")
+    command->add_option("--attrition", options->attrition, "share of people who drop out")
         ->capture_default_str();
     command->add_option("--population", options->population,
                         "file of the population; default: the shipped one");
@@ -108,13 +108,13 @@ void add_power(CLI::App& app) {
                         "people at a time; default: one on each processor");
     command->add_option("--out", options->out, "folder of the results; default: power/NAME_SEED");
     command->footer(
-        "\nThe folder gets power.html, a page for a preregistration; the figure power.svg, .pdf "
-        "and "
-        ".png; and\n"
-        "power.csv, power-by-n.csv and people.csv. The pool is in its folder pool: if the command "
-        "is "
-        "interrupted,\n"
-        "the same command continues it.\n"
+        "\nA folder in it, named after the effect, gets power.html, a page for a preregistration; "
+        "the "
+        "figure\n"
+        "power.svg, .pdf and .png; and power.csv, power-by-n.csv and effect-of-people.csv. The "
+        "pool is in the "
+        "folder\n"
+        "pool: if the command is interrupted, the same command continues it.\n"
         "\nExample:\n  dihaptic power experiments/size-weight.yaml --n 8,12,16 \\\n"
         "    --effect \"mean(peak_grip_rate_N_s, condition=large) - mean(peak_grip_rate_N_s, "
         "condition=small)\"");

@@ -239,7 +239,7 @@ TEST(ForceDimension, ADeviceWithoutAWatchdogIsUsedOnlyWhenTheRigSaysSo) {
         "watchdog: "
         "not available on this device",
         said);
-    expect_in("its force may stay on when this program dies", said);
+    expect_in("the force may stay on when this program dies", said);
     EXPECT_FALSE(fake.expert);
     EXPECT_FALSE(fake.devices[0].force_enabled);
     const auto group = make({"serial: 101\nwatchdog: no\n"});
