@@ -62,9 +62,9 @@ def power(
 
     >>> import dihaptic as dh
     >>> pool = dh.rehearse("experiments/first-trials.yaml", 12, out=f"{folder}/pool", progress=False)
-    >>> result = dh.power(pool.folder, "mean(static_grip_N, block=heavy) - mean(static_grip_N, block=light)", [3, 6])
+    >>> result = dh.power(pool.folder, "mean(static_grip_N, block=heavy) - mean(static_grip_N, block=light)", [6, 8])
     >>> result.table[["n", "power"]].values.tolist()
-    [[3.0, 1.0], [6.0, 1.0]]
+    [[6.0, 1.0], [8.0, 1.0]]
     """
     # these need matplotlib and SciPy, and take their time to be read
     from .draws import test_named
