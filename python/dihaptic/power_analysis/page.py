@@ -219,7 +219,7 @@ def _drivers(result: Power) -> list[str]:
     if not out or result.effect.is_between:
         return []
     return [
-        f"Without {listed(out[:8])}, Cohen's d would be another one by more than {100 * _MOST_OF_ONE:.0f} %: look at "
+        f"Without {listed(out[:8])}, Cohen's d would change by more than {100 * _MOST_OF_ONE:.0f} %: look at "
         "effect-of-people.csv, and at the trials of these people."
     ]
 
