@@ -150,10 +150,10 @@ class Pools(unittest.TestCase):
         lifts = lifts[~lifts.kind.isin(["practice", "catch"])].drop_duplicates(["id", "trial_num"], keep="last")
         means = lifts.groupby(["id", "block"]).static_grip_N.mean().unstack()
         wanted = means.heavy - means.light
-        pd.testing.assert_series_equal(Effect(DIFFERENCE).of_people(self.data), wanted, check_names=False, rtol=1e-12)
+        pd.testing.assert_series_equal(Effect(DIFFERENCE).sides(self.data)[0], wanted, check_names=False, rtol=1e-12)
         ratio = Effect("2 * median(static_grip_N, block='heavy') / mean(static_grip_N, block=light, table=lifts) - 1")
         medians = lifts[lifts.block == "heavy"].groupby("id").static_grip_N.median()
-        pd.testing.assert_series_equal(ratio.of_people(self.data), 2 * medians / means.light - 1, check_names=False, rtol=1e-12)
+        pd.testing.assert_series_equal(ratio.sides(self.data)[0], 2 * medians / means.light - 1, check_names=False, rtol=1e-12)
 
     def test_mistakes_are_told(self):
         for text, what in (
@@ -183,7 +183,7 @@ class Pools(unittest.TestCase):
             ("mean(static_grip_N, table=lift)", "is not a table of these people"),
         ):
             with self.subTest(text):
-                self.refused(what, lambda text=text: Effect(text).of_people(self.data))
+                self.refused(what, lambda text=text: Effect(text).sides(self.data)[0])
         for options, what in (
             ({"n": [2]}, "from 3 to"), ({"n": []}, "from 3 to"), ({"n": [10**8]}, "from 3 to"), ({"draws": 5}, "from 100"),
             ({"alpha": 2}, "from 0.000001"), ({"alpha": 1e-300}, "from 0.000001"), ({"ratio": 11}, "from 0.1"),
@@ -222,7 +222,7 @@ class Pools(unittest.TestCase):
         self.refused("is the folder of a rehearsal", lambda: dh.power(self.pool, "mean(preload_s)", [4]).save(self.pool))
 
     def mean_preload(self):
-        return Effect("mean(preload_s)").of_people(self.data).mean()
+        return Effect("mean(preload_s)").sides(self.data)[0].mean()
 
     def test_a_pool_is_rehearsed_once_and_continued(self):
         out = f"{self.folder.name}/made"

@@ -256,20 +256,16 @@ def plans(data: Data) -> Iterator[Plan]:
 
 
 def measures_of_lifts(data: Data) -> list[str]:
-    """Those of LIFT_MEASURES that these lifts have, and that the task does not measure itself."""
-    lifts = data.table("lifts")
-    return [m for m in LIFT_MEASURES if m in lifts and lifts[m].notna().any() and not _is_measured_by_task(data, m)]
-
-
-def _is_measured_by_task(data: Data, measure: str) -> bool:
-    """Whether a measure of trials.csv has the values of this measure of lifts.csv, by whatever name."""
-    both = counting_trials(data, "lifts")
-    values = both[measure]
-    others = counting_trials(data)
-    keys = [key for key in (*SITTING, "trial_num") if key in others and key in both]
-    others = both[keys].merge(others, on=keys, how="left")
-    same = (np.isclose(others[each.column], values, rtol=1e-6, equal_nan=True) for each in data.measures if each.column in others)
-    return any(bool(each.all()) for each in same)
+    """Those of LIFT_MEASURES that these lifts have, and that the task does not measure itself, by whatever name."""
+    lifts, both, trials = data.table("lifts"), counting_trials(data, "lifts"), counting_trials(data)
+    keys = [key for key in (*SITTING, "trial_num") if key in trials and key in both]
+    of_trials = both[keys].merge(trials, on=keys, how="left")
+    own = [of_trials[measure.column] for measure in data.measures if measure.column in of_trials]
+    return [
+        name for name in LIFT_MEASURES
+        if name in lifts and lifts[name].notna().any()
+        and not any(np.isclose(values, both[name], rtol=1e-6, equal_nan=True).all() for values in own)
+    ]  # fmt: skip
 
 
 def axes_of_design(data: Data) -> dict[str, str]:

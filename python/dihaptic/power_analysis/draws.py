@@ -95,7 +95,8 @@ def find_effect(
             some_p = np.where(scatter > 1e-9 * size, some_p, np.nan)
         p.append(some_p)
         estimates.append(samples[0].mean(0) - (samples[1].mean(0) if len(samples) == 2 else 0))
-        halves.append(_half_width(samples, test, alpha))
+        if test != "wilcoxon":
+            halves.append(half_width(samples, test, alpha))
     all_p = np.concatenate(p)
     is_found = all_p < alpha  # not where there is no p
     found = np.concatenate(estimates)[is_found]
@@ -108,14 +109,12 @@ def find_effect(
         wrong_sign=float((found * true < 0).mean()) if len(found) and true != 0 else float("nan"),
         exaggeration=float(np.abs(found).mean() / abs(true)) if len(found) and true != 0 else float("nan"),
         untested=float(np.isnan(all_p).mean()),
-        half_width=float(np.nanmedian(np.concatenate(halves))) if test != "wilcoxon" else float("nan"),
+        half_width=float(np.nanmedian(np.concatenate(halves))) if halves else float("nan"),
     )
 
 
-def _half_width(samples: list[Array], test: str, alpha: float) -> Array:
-    """Half the width of the confidence interval of each sample's estimate, by the same test."""
-    if test == "wilcoxon":
-        return np.full(samples[0].shape[1], np.nan)
+def half_width(samples: list[Array], test: str, alpha: float) -> Array:
+    """Half the width of the confidence interval of each sample's estimate, by "t" or "welch". A sample is a column."""
     n = [len(sample) for sample in samples]
     variances = [sample.var(0, ddof=1) for sample in samples]
     if len(samples) == 1:

@@ -40,7 +40,7 @@ class Effect:
 
     >>> from dihaptic import figures
     >>> from dihaptic.power_analysis.effect import Effect
-    >>> Effect("mean(peak_grip_N, table=lifts) / 2").of_people(figures.read(lift_session)).round(2).tolist()
+    >>> Effect("mean(peak_grip_N, table=lifts) / 2").sides(figures.read(lift_session))[0].round(2).tolist()
     [0.53]
     """
 
@@ -80,15 +80,6 @@ class Effect:
         tree = self._tree
         is_sum = isinstance(tree, ast.BinOp) and isinstance(tree.op, (ast.Add, ast.Sub))
         return is_sum and any(isinstance(side, ast.Constant) for side in (tree.left, tree.right))  # type: ignore[attr-defined]
-
-    def of_people(self, data: Data) -> pd.Series:
-        """The value of each person, by name; of an effect between groups, that of one's own group. NaN: not known. Raises
-        Error for a column, or a value, that the tables do not have."""
-        if not self.is_between:
-            return self._value(self._tree, data)
-        assert isinstance(self._tree, ast.BinOp)
-        sides = [self._value(side, data) for side in (self._tree.left, self._tree.right)]
-        return pd.concat([side[side.notna()] for side in sides])
 
     def sides(self, data: Data) -> list[pd.Series]:
         """The known values of the people of each group; or of all people, where it does not compare groups. Raises Error."""

@@ -15,7 +15,7 @@ from ..errors import error
 from ..figures.saving import is_changed, save, signed, write
 from ..figures.style import COLOURS, QUIET, canvas, drawing
 from ..reports.page import Page
-from ..reports.results import listed
+from ..reports.results import is_index, listed
 from ..reports.simulated import limits_of
 
 if TYPE_CHECKING:
@@ -49,8 +49,7 @@ def curve(result: Power) -> pd.DataFrame:
     last = max(result.n)
     for wanted in result.smallest["n"].dropna():
         last = max(last, min(int(wanted), 4 * max(result.n)))
-    first = max(3, int(np.ceil(3 / (1 - result.attrition) / min(1, result.ratio))))
-    every = np.unique(np.concatenate([result.n, np.round(np.geomspace(first, last, _CURVE)).astype(int)]))
+    every = np.unique(np.concatenate([result.n, np.round(np.geomspace(result.fewest, last, _CURVE)).astype(int)]))
     rows = []
     for spread in SPREADS:
         for n in every:
@@ -68,7 +67,8 @@ def draw_power(points: pd.DataFrame, *, xlabel: str = "people", size: str = "one
     """Draws curve(): the power of the pool with its interval, dashed lines for people who differ less and more."""
     figure, (axes,) = canvas(size, height_mm)
     lines = points[points["of"] == "power"]
-    for spread, style in ((1.0, "-"), (0.7, "--"), (1.5, ":")):
+    others = [spread for spread in lines["spread"].unique() if spread != 1]
+    for spread, style in zip([1.0, *others], ("-", "--", ":")):
         own = lines[lines["spread"] == spread]
         words = "as simulated" if spread == 1 else f"spread of people times {spread:g}"
         axes.plot(own["n"], own["value"], style, color=COLOURS[0], lw=1.2 if spread == 1 else 0.8, label=words)
@@ -81,7 +81,7 @@ def draw_power(points: pd.DataFrame, *, xlabel: str = "people", size: str = "one
     return figure
 
 
-def _script(xlabel: str) -> str:
+def _script(xlabel: str, mark: str) -> str:
     """The script that draws the figure anew from power.csv."""
     text = f'''"""Power over the number of people: draws power.svg, .pdf and .png from power.csv."""
 
@@ -94,7 +94,7 @@ from dihaptic.power_analysis.page import draw_power
 
 here = Path(__file__).resolve().parent
 points = pd.read_csv(here / "power.csv")
-points.attrs["mark"] = "simulated"  # in the figure's corner
+points.attrs["mark"] = {mark!r}  # in the figure's corner
 
 # size: "one column" (89 mm) or "two columns" (183 mm) of a journal
 figure = draw_power(points, xlabel={xlabel!r}, size="one column")
@@ -119,7 +119,7 @@ def write_page(result: Power, folder: Path) -> Path:
     if is_changed(script):
         warnings.warn(f"{script} has been changed, and is left as it is: run it to draw the figure your way", stacklevel=3)
     else:
-        write(script, _script(xlabel).encode())
+        write(script, _script(xlabel, result.data.mark).encode())
     table = result.table
     write(folder / "power-by-n.csv", table.to_csv(index=False).encode())
     people = pd.concat([pd.DataFrame({"person": side.index, "group": group, "effect": side.to_numpy()})
@@ -169,11 +169,13 @@ def warnings_of(result: Power) -> list[str]:
     if result.effect.has_fixed_value:
         out.append(
             "The effect compares people with a fixed number. For this, the mean of simulated people must be right, not only "
-            "their differences; means of other schedules than the calibrated one miss those of real people by up to 11 degrees."
+            "their differences; in rotations, means of other schedules than the calibrated one miss those of real people by up "
+            "to 11 degrees."
         )
     out += [f"Left out: {why}." for why in result.data.left_out]
     out += _drivers(result)
-    unknown = [name for name in result.effect.columns if name not in _COMPARED]
+    # the same columns of force channels are another measure, which was not compared
+    unknown = [name for name in result.effect.columns if name not in _COMPARED or is_index(result.data)]
     if unknown and result.data.is_simulated:
         out.append(
             f"How much {listed(unknown)} scatters over trials and over people was never compared with real people. If simulated "

@@ -9,11 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from scipy import stats
 
 from .._facts import version
 from ..figures.data import Data
-from .draws import Array, Found, find_effect, smallest_size
+from .draws import Array, Found, find_effect, half_width, smallest_size
 from .effect import Effect
 
 #: Factors on the spread of people, for the sensitivity of the power to it.
@@ -59,9 +58,7 @@ class Power:
     @property
     def interval(self) -> tuple[float, float]:
         """The 95 % interval of the effect, from the people of the pool (t; of two groups Welch's)."""
-        parts = [float(side.var()) / len(side) for side in self.sides]
-        free = sum(parts) ** 2 / sum(part**2 / (len(side) - 1) for part, side in zip(parts, self.sides))
-        half = float(stats.t.ppf(0.975, free)) * math.sqrt(sum(parts))
+        half = float(half_width([values[:, None] for values in self._pool], "welch" if self.effect.is_between else "t", 0.05)[0])
         return self.size - half, self.size + half
 
     def at(self, n: int, spread: float = 1) -> Found:
@@ -145,7 +142,8 @@ class Power:
         text = (
             f"The effect {self.effect.text} was computed from {who} (population {population}, dihaptic {version()}): "
             f"{self.size:.3g} (95 % interval {low:.3g} to {high:.3g}), Cohen's d = {self.standardised:.2f}. {self.draws} samples "
-            f"of each size were drawn from them with replacement, and tested by {tests[self.test]} (two-sided, alpha = {self.alpha:g}; seed {self.seed})."
+            f"of each size were drawn from them with replacement, and tested by {tests[self.test]} (two-sided, alpha = "
+            f"{self.alpha:g}; seed {self.seed})."
         )
         for row in self.smallest.itertuples():
             if pd.isna(row.n):
@@ -153,8 +151,8 @@ class Power:
             else:
                 pool_low, pool_high = self._interval_of_pool(int(row.n))
                 text += (
-                    f" With {row.n} people{each} the power reaches {100 * row.power:.0f} %; with other pools of this size it would "
-                    f"be between {pool_low:.2f} and {pool_high:.2f}."
+                    f" With {row.n} people{each} the power reaches {100 * row.power:.0f} %; with other pools of this size it "
+                    f"would be between {pool_low:.2f} and {pool_high:.2f}."
                 )
         if self.effect.is_between and self.ratio != 1:
             text += f" The second group, {self.effect.groups[1]}, has {self.ratio:g} times as many."

@@ -158,7 +158,7 @@ def _measured(data: Data) -> list[str]:
     """The first measures, and those of lifts, in each condition: mean and SD over people, or over the trials of one person."""
     if not data.has("trials") or "attempt" not in data.table("trials"):
         return []
-    index = _is_index(data)
+    index = is_index(data)
     # what was learned has a sentence, and details of its regression are in the table
     names = [measure.column for measure in data.measures if not (index and measure.column.startswith("adaptation_index"))]
     own = [("trials", name) for name in names[:_MOST_MEASURES]]
@@ -176,7 +176,7 @@ def _measured(data: Data) -> list[str]:
     return out
 
 
-def _is_index(data: Data) -> bool:
+def is_index(data: Data) -> bool:
     """Whether compensation is the adaptation index of force channels."""
     return data.has("fits") and "adaptation_index" in set(data.table("fits")["measure"].dropna())
 
@@ -226,7 +226,7 @@ def _learned(data: Data) -> str:
     people = fits["person"].nunique()
     spread = "mean ± SD over people" if table["sd"].notna().any() else "means over at most eight trials"
     n = f"; n = {counted(people, 'person', 'people')}" if people > 1 else ""
-    return f"{'Adaptation index' if _is_index(data) else 'Compensation'} ({spread}): {'; '.join(texts)}{n}." if texts else ""
+    return f"{'Adaptation index' if is_index(data) else 'Compensation'} ({spread}): {'; '.join(texts)}{n}." if texts else ""
 
 
 def _thresholds(data: Data) -> str:
