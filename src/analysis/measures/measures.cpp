@@ -45,11 +45,14 @@ std::optional<Planned> planned(const task::Task& task, const recording::SessionF
     return Planned{std::move(scene), std::move(plan)};
 }
 
-/// Finds the states in which channels act in the trials with movements.
+/// Finds the states in which channels act in the trials with movements, and the delay of the ideal
+/// force.
 void find_channels(const Planned& of, std::vector<task::MovementPlan>& movements) {
     const std::vector<task::MovementPlan> known = task::movements_of(of.plan, of.scene);
-    for (size_t i = 0; i < std::min(known.size(), movements.size()); ++i)
+    for (size_t i = 0; i < std::min(known.size(), movements.size()); ++i) {
         movements[i].channel_states = known[i].channel_states;
+        movements[i].ideal_delay = known[i].ideal_delay;
+    }
 }
 
 }  // namespace

@@ -59,7 +59,8 @@ struct Regression {
         through_zero = x2 > 0 ? raw_xy / x2 : kUnmeasured;
         slope = xx > 0 ? xy / xx : kUnmeasured;
         offset = mean_y - slope * mean_x;
-        r2 = xx > 0 && yy > 0 ? xy * xy / (xx * yy) : kUnmeasured;
+        // rounding may lead beyond 1, which no correlation can be
+        r2 = xx > 0 && yy > 0 ? std::min(1.0, xy * xy / (xx * yy)) : kUnmeasured;
     }
     double through_zero, slope, offset, r2;
 };
@@ -199,11 +200,14 @@ std::string AttemptMeasures::why_no_index() const {
 }
 
 void AttemptMeasures::find_lines() {
+    const auto late = std::lround(attempt_.plan.ideal_delay / tick_);
     for (const MotionSample& s : run_) {
         left_.push_back((s.p_W - attempt_.plan.from_W).dot(left_W_));
         force_.push_back(s.f_W.dot(left_W_));
-        // the hand must push against the field
-        ideal_.push_back(-left_W_.dot(attempt_.plan.ideal * s.v_W));
+        // the hand must push against the field, which may act late
+        const std::ptrdiff_t before = &s - attempt_.samples.data();
+        const Vec3 v_W = before < late ? Vec3(Vec3::Zero()) : (&s - late)->v_W;
+        ideal_.push_back(-left_W_.dot(attempt_.plan.ideal * v_W));
     }
 }
 

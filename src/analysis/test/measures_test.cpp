@@ -77,6 +77,18 @@ TEST(Measures, OfForceInAChannelAreTheSharesThatThePersonPressesWith) {
     EXPECT_EQ(reach.take("adaptation_index").why, "no channel");
 }
 
+TEST(Measures, OfALateFieldCompareWithItsForceAsLate) {
+    Reach reach;
+    reach.attempt.plan.channel = 1;
+    reach.attempt.plan.field_share = kUnmeasured;
+    reach.attempt.plan.ideal_delay = 0.07;
+    EXPECT_LT(reach.value("adaptation_index", 1), 0.55);  // the hand presses too early
+    std::vector<MotionSample>& samples = reach.attempt.samples;
+    for (size_t i = samples.size(); i-- > 70;) samples[i].f_W = samples[i - 70].f_W;
+    EXPECT_NEAR(reach.value("adaptation_index", 1), 0.6, 1e-12);
+    EXPECT_NEAR(reach.value("adaptation_index", 3), 1, 1e-12);
+}
+
 TEST(Measures, AMovementGoesOnAfterAPauseThatIsShorterThanItsEnd) {
     Reach reach;  // a second stroke follows 0.2 s after the end of the first one
     for (size_t i = 2000; i < 2100; ++i) reach.attempt.samples[i].v_W = {0.06, 0, 0};

@@ -35,6 +35,13 @@ Mat3 Perturbation::field_gain() const {
     return gain;
 }
 
+double Perturbation::field_delay() const {
+    const std::span<const Load> all = loads();
+    const auto moved =
+        std::ranges::find_if(all, [](const Load& load) { return !load.velocity_gain().isZero(0); });
+    return moved == all.end() ? 0 : moved->delay();
+}
+
 std::optional<Vec3> Perturbation::axis() const {
     for (const VisualEffect& map : of<VisualEffect>()) {
         if (const auto axis = map.axis()) return axis;

@@ -97,6 +97,8 @@ class Perturbation {
     /// Matrix that maps velocity to the force of the perturbation's loads at share 1 [N*s/m]; zero
     /// for channels and springs.
     Mat3 field_gain() const;
+    /// Delay of the first load that depends on velocity [s]; 0 if there is none.
+    double field_delay() const;
     /// Axis of the perturbation's visual rotation or of its first curl field; nullopt if it has
     /// neither.
     std::optional<Vec3> axis() const;

@@ -233,8 +233,11 @@ bool holds_to_line(const Load& load, std::span<const Vec3> regions_W,
 void compare(MovementPlan& out, const Task& task, const TaskPlan::Cell& cell, const Trial& trial,
              const Movement& movement) {
     const PerturbationSpec* ideal = ideal_of(task, movement);
-    if (ideal != nullptr)
-        out.ideal = cell.perturbations[place_of(task.perturbations, ideal->name)].field_gain();
+    if (ideal != nullptr) {
+        const auto& field = cell.perturbations[place_of(task.perturbations, ideal->name)];
+        out.ideal = field.field_gain();
+        out.ideal_delay = field.field_delay();
+    }
     out.channel = 0;
     out.channel_states = 0;
     out.field_share = 0;

@@ -307,6 +307,9 @@ struct MovementPlan {
     double field_share = 0;  ///< ratio of the trial's field to the ideal field; NaN in a channel
     /// Matrix that maps velocity to the force of the ideal field [N*s/m].
     Mat3 ideal = Mat3::Zero();
+    /// Age of the velocity from which the ideal field is computed [s]. Not stored in
+    /// trial-list.csv.
+    double ideal_delay = 0;
 
     /// Unit vectors: along_W() points along the line, and left_W() points across the line, to its
     /// left as seen from the tip of the axis. NaN if undefined.
