@@ -52,10 +52,9 @@ void Grip::restart() noexcept {
     end();
 }
 
-void Grip::set(double latency, double strength, double misfelt) noexcept {
-    latency_ = std::clamp(latency, 0.0, kLongestLatency);
-    strength_ = strength;
-    misfelt_ = misfelt;
+void Grip::set(const Trial& trial) noexcept {
+    trial_ = trial;
+    trial_.latency = std::clamp(trial.latency, 0.0, kLongestLatency);
 }
 
 void Grip::end() noexcept {
@@ -84,11 +83,11 @@ void Grip::close(double now, double grip) noexcept {
 
 void Grip::lift(double now, Strokes& aim) noexcept {
     const double weight = memory().weight;
-    const double duration = traits_.load_time + traits_.load_time_rise * weight;
+    const double duration = trial_.slowness * (traits_.load_time + traits_.load_time_rise * weight);
     aim.add({Vec3::Zero(), 0, kAimedAbove * weight - aim.goal().load}, now, duration);
     phase_ = GripPhase::load;
     since_ = now;
-    probe_ = now + duration + latency_;
+    probe_ = now + duration + trial_.latency;
 }
 
 void Grip::release(double now, Strokes& aim) noexcept {
@@ -119,15 +118,15 @@ double Grip::needed(const Vec3& force_W, const Vec3& axis) const noexcept {
 }
 
 bool Grip::lost(double now) const noexcept {
-    return !felt().held && now - since_ > latency_ && phase_ != GripPhase::unload;
+    return !felt().held && now - since_ > trial_.latency && phase_ != GripPhase::unload;
 }
 
 void Grip::feel_skin(double now, const Feeling& newest) noexcept {
     // the newest sample instead of felt(), because skin_time is itself the delay of the skin, and
-    // touched_ already lags by latency_
+    // touched_ already lags by trial_.latency
     if (traits_.skin_time > 0 && newest.body == body_ &&
-        now - touched_ + latency_ > traits_.skin_time)
-        memory().friction = misfelt_ * newest.friction;
+        now - touched_ + trial_.latency > traits_.skin_time)
+        memory().friction = trial_.misfelt * newest.friction;
 }
 
 void Grip::answer_slip(double now) noexcept {
@@ -135,7 +134,7 @@ void Grip::answer_slip(double now) noexcept {
     const double known = memory().friction;
     const double told = std::max(felt().slip_friction, kDoubt * known);
     if (felt().slip_friction > 0 && told < known) memory().friction = told;
-    strength_ = std::min(kStrongestReflex, std::max(1.0, strength_) * kReflex);
+    trial_.strength = std::min(kStrongestReflex, std::max(1.0, trial_.strength) * kReflex);
     reflex_ = now + kReflexTime;
 }
 
@@ -189,9 +188,9 @@ double Grip::wanted(double now, double load, const Vec3& axis) const noexcept {
         const double late = std::max(0.0, now - since_ - kPeakTime);
         peak = 1 + (traits_.peak_grip - 1) * std::exp(-late / kPeakDecay);
     }
-    double grip = strength_ * peak * needed(expected, axis);
+    double grip = trial_.strength * peak * needed(expected, axis);
     if (carries()) {
-        const double surprise = strength_ * needed(felt().force_W, axis);
+        const double surprise = trial_.strength * needed(felt().force_W, axis);
         if (surprise > kSurprise * grip) grip = surprise;
     }
     return std::max(grip, phase_ == GripPhase::lifted ? traits_.least_grip : hold_);
@@ -200,7 +199,7 @@ double Grip::wanted(double now, double load, const Vec3& axis) const noexcept {
 void Grip::tick(double now, const Feeling& newest, const Vec3& axis, Strokes& aim) noexcept {
     past_.add(newest);
     if (phase_ == GripPhase::open) return;
-    if (phase_ == GripPhase::preload && now - since_ >= traits_.preload_time - latency_)
+    if (phase_ == GripPhase::preload && now - since_ >= traits_.preload_time - trial_.latency)
         phase_ = GripPhase::ready;
     if (lost(now)) {
         aim.add({Vec3::Zero(), 0, -aim.goal().load}, now, kUnload);

@@ -27,9 +27,14 @@ class Grip {
     Grip(const Traits& traits, std::vector<GripMemory> memory, double tick);
 
     void restart() noexcept;
-    /// Sets the values for a trial. `latency`: reflex latency [s]. `strength`: ratio of the grip
-    /// force to the right one. `misfelt`: ratio of the friction felt by the skin to the true one.
-    void set(double latency, double strength, double misfelt) noexcept;
+    /// The values that differ from trial to trial.
+    struct Trial {
+        double latency = 0.075;  ///< reflex latency [s]
+        double strength = 1;     ///< ratio of the grip force to the planned one
+        double misfelt = 1;      ///< ratio of the friction felt by the skin to the true one
+        double slowness = 1;     ///< ratio of the duration of the load phase to the usual one
+    };
+    void set(const Trial& trial) noexcept;
 
     GripPhase phase() const { return phase_; }
     bool holds() const { return phase_ != GripPhase::open; }
@@ -59,7 +64,7 @@ class Grip {
     }
     const GripMemory& memory(int body) const { return memory_[static_cast<size_t>(body)]; }
     /// What is felt in this tick, i.e. the touch one reflex latency ago.
-    const Feeling& felt() const { return past_.before(latency_); }
+    const Feeling& felt() const { return past_.before(trial_.latency); }
 
   private:
     GripMemory& memory() noexcept { return memory_[static_cast<size_t>(body_)]; }
@@ -82,9 +87,7 @@ class Grip {
     std::vector<GripMemory> memory_;
     double tick_;
     Past<Feeling> past_;
-    double latency_ = 0.075;
-    double strength_ = 1;
-    double misfelt_ = 1;
+    Trial trial_;
 
     GripPhase phase_ = GripPhase::open;
     int body_ = 0;

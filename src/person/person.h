@@ -49,8 +49,8 @@ class Person final : public task::SeeingDriver {
 
     const Grip& grip() const { return grip_; }
     /// What the person has learned about rotations in a state of the task, given by its index.
-    const RotationMemory& rotations(size_t state) const { return rotations_[state]; }
-    const ForceMemory& forces(size_t state) const { return forces_[state]; }
+    const RotationMemory& rotations(size_t state) const { return rotations_[memory_[state]]; }
+    const ForceMemory& forces(size_t state) const { return forces_[memory_[state]]; }
 
   private:
     hand::FingerTarget do_target(int finger, double t) const noexcept override;
@@ -71,9 +71,15 @@ class Person final : public task::SeeingDriver {
     void move(const Aim& way, double duration, const Sight& sight) noexcept;
     void rest() noexcept;
     Vec3 plan_reach(const Sight& sight, const Vec3& displacement) noexcept;
+    Vec3 astray(const Vec3& way, const Vec3& displacement) const noexcept;
     bool pushed(const frame::Frame& frame) const noexcept;
     Strain strain(const frame::Frame& frame) const noexcept;
     void feel_strain() noexcept;
+    void learn_lag() noexcept;
+    void stray() noexcept;
+    void give_way() noexcept;
+    void follow_jumps(const Sight& sight) noexcept;
+    void redirect(const Vec3& displacement) noexcept;
     void watch_reach(const Sight& sight) noexcept;
     void end_reach() noexcept;
     bool correct(const Sight& sight) noexcept;
@@ -105,13 +111,18 @@ class Person final : public task::SeeingDriver {
 
     // senses
     Random random_;
-    double now_ = 0;  // [s]
+    Random lifts_;     // apart from random_, so that the noise of lifts does not change reaches
+    Random presses_;   // likewise, for the noise of learned forces
+    double now_ = 0;   // [s]
+    double tick_ = 0;  // time since the last Frame [s]
     Eyes eyes_;
     Touch touch_;
-    double half_ = 0;             // half the aperture of the handles [m]
-    double touched_ = 0;          // value of half_ when both fingers touched [m]
-    Vec3 centre_ = Vec3::Zero();  // middle of the handles [m]
+    double half_ = 0;               // half the aperture of the handles [m]
+    double touched_ = 0;            // value of half_ when both fingers touched [m]
+    Vec3 centre_ = Vec3::Zero();    // middle of the handles [m]
+    Vec3 velocity_ = Vec3::Zero();  // of the middle of the handles [m/s]
     double felt_ = 0;          // force on a finger, smoothed like the stiffness it determines [N]
+    Past<Vec3> velocities_;    // of the middle of the handles [m/s]
     Past<Strain> strains_;     // read with the delay of sight, to be compared with it
     std::vector<Vec3> known_;  // last seen position of each region [m]
     HeldCursor cursor_;
@@ -120,9 +131,10 @@ class Person final : public task::SeeingDriver {
     // memory
     Learned before_;  // what was learned in earlier sessions
     std::vector<std::string> bodies_;
-    std::vector<RotationMemory> rotations_;  // by state, since learning in one stays in it
-    std::vector<GainMemory> gains_;          // by state
-    std::vector<ForceMemory> forces_;        // by state
+    std::vector<size_t> memory_;             // by state: which of the following it uses
+    std::vector<RotationMemory> rotations_;  // by the first state that uses it
+    std::vector<GainMemory> gains_;          // likewise
+    std::vector<ForceMemory> forces_;        // likewise
     Grip grip_;
 
     // actions
@@ -141,8 +153,11 @@ class Person final : public task::SeeingDriver {
     Aim pending_;              // current movement; in a lift, it starts when the object lifts off
     double pending_time_ = 0;  // duration of pending_ [s]
     int corrections_ = 0;
-    double missed_ = 0;  // distance from the target before the last correction [m]
-    double delay_ = 0;   // hesitation before the next movement of this trial [s]
+    double missed_ = 0;    // distance from the target before the last correction [m]
+    double moved_at_ = 0;  // last time when the hand was felt to move [s]
+    Vec3 off_felt_ =
+        Vec3::Zero();   // last seen distance from the felt hand to the displayed one [m]
+    double delay_ = 0;  // hesitation before the next movement of this trial [s]
     struct Reach {
         bool going = false;
         bool mended = false;  // whether the reach was corrected on the way
@@ -150,19 +165,38 @@ class Person final : public task::SeeingDriver {
         bool ended = false;   // whether its first stroke has ended and its extent was judged
         bool pushed = false;  // whether a push was felt before its error was judged
         int number = 0;       // from 1
-        size_t state = 0;
-        Vec3 from = Vec3::Zero();       // displayed position of the hand at the start [m]
-        Vec3 felt_from = Vec3::Zero();  // felt position of the hand at the start [m]
-        Vec3 way = Vec3::Zero();        // displacement that the display should show [m]
-        Vec3 error = Vec3::Zero();      // rotation vector from `way` to the hand's direction [rad]
+        size_t memory = 0;    // index into rotations_, gains_ and forces_
+        Vec3 cursor_off = Vec3::Zero();  // jump of the cursor that is not answered yet [m]
+        double jumped_at = 0;            // last time without such a jump, or one of the target [s]
+        int jumps = 0;                   // number of jumps of the display that were answered
+        Vec3 from = Vec3::Zero();        // displayed position of the hand at the start [m]
+        Vec3 felt_from = Vec3::Zero();   // felt position of the hand at the start [m]
+        Vec3 way = Vec3::Zero();         // displacement that the display should show [m]
+        Vec3 error = Vec3::Zero();       // rotation vector from `way` to the hand's direction [rad]
 
         double begin = 0;             // start time of its first stroke [s]
         double duration = 0;          // duration of its first stroke [s]; 0 if not started
         Vec3 along = Vec3::Zero();    // unit vector of the intended direction
+        Vec3 goal = Vec3::Zero();     // where the target was seen [m]
         Vec3 strayed = Vec3::Zero();  // deviation of the first stroke from `along` by noise [m]
+        // by how much it has strayed, how much of that the hand has followed, and their rates
+        Vec3 strayed_so_far = Vec3::Zero();  // [m]
+        Vec3 straying = Vec3::Zero();        // [m/s]
+        Vec3 followed = Vec3::Zero();        // [m]
+        Vec3 following = Vec3::Zero();       // [m/s]
+        Vec3 held_back = Vec3::Zero();       // difference that is made by what holds the hand [m]
+        Vec3 held_back_rate = Vec3::Zero();  // [m/s]
+        Vec3 expects = Vec3::Zero();         // push expected, per speed along `along` [N*s/m]
         Vec3 presses = Vec3::Zero();  // force that opposes a push, per speed along `along` [N*s/m]
         Vec3 push = Vec3::Zero();     // sum of push times speed [N*m/s]
-        double moved = 0;             // sum of squared speed [m^2/s^2]; 0 if nothing pushed
+        double lag = 0;               // time by which a push is expected to follow the speed [s]
+        // sums over the ticks, from which it is learned how much later the push came
+        Vec3 pushes = Vec3::Zero();        // of the push [N]
+        Vec3 timed_pushes = Vec3::Zero();  // of the push times its time [N*s]
+        double speeds = 0;                 // of the speed [m/s]
+        double timed_speeds = 0;           // of the speed times its time [m]
+        int ticks = 0;
+        double moved = 0;  // sum of squared speed [m^2/s^2]; 0 if nothing pushed
     };
     Reach reach_;
 

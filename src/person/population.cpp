@@ -24,9 +24,10 @@ constexpr size_t kMostGroups = 1000;  // limits the time needed to check the tra
 constexpr double kFarthest = 2.5;     // largest |z|, i.e. distance of a person from the median
 
 /// Traits that are zero in people who show no noise and make no mistakes.
-constexpr std::array kNoise{"visual_noise",    "reaction_noise", "tempo_noise",  "direction_noise",
-                            "adapted_noise",   "extent_noise",   "reflex_noise", "friction_error",
-                            "hesitation_rate", "slip_rate",      "give_up_rate"};
+constexpr std::array kNoise{"visual_noise",  "reaction_noise", "tempo_noise",    "direction_noise",
+                            "adapted_noise", "extent_noise",   "grip_noise",     "load_time_noise",
+                            "reflex_noise",  "force_noise",    "friction_error", "hesitation_rate",
+                            "slip_rate",     "give_up_rate"};
 
 double drawn(const TraitSpread& row, double z) {
     const double median = *row.median;

@@ -87,8 +87,9 @@ void warn_of_shifts(const task::TaskPlan& plan, std::vector<Problem>& out) {
     };
     for (const task::PerturbationSpec* perturbation : perturbations_with(plan, shifts)) {
         out.push_back({Severity::warning, perturbation->place, perturbation->name,
-                       "shifts what is shown: simulated people take it for a rotation, do not "
-                       "correct it within the reach, and their movements are arbitrary",
+                       "shifts what is shown: simulated people correct a shift that appears within "
+                       "a reach, by about as much as people do, but learn nothing from it, so that "
+                       "any change over trials is arbitrary",
                        kRemedy});
     }
 }

@@ -17,7 +17,8 @@ namespace dihaptic::person {
 struct Strain {
     Vec3 hand = Vec3::Zero();    ///< felt position of the hand: the middle of the handles [m]
     int reach = 0;               ///< number of the reach in which a push was felt; 0 if none
-    double speed = 0;            ///< speed along the reach [m/s]
+    double time = 0;             ///< [s]
+    double speed = 0;            ///< speed along the reach, one lag ago [m/s]
     Vec3 push_W = Vec3::Zero();  ///< f_push, averaged over the fingers [N]
 };
 

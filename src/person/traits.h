@@ -50,14 +50,17 @@ struct Traits {
     double force_fast_learning = 0;
     double force_slow_retention = 0;
     double force_slow_learning = 0;
+    double force_noise = 0;  ///< SD over reaches of the force against an expected push, as a share
     double force_generalisation = 0;  ///< generalisation width (SD) of both force processes [rad]
 
     double safety_margin = 0;    ///< safety margin of the static grip force
     double least_grip = 0;       ///< smallest grip force, even for a very light object [N]
     double peak_grip = 0;        ///< ratio of the grip force at lift-off to the static grip force
+    double grip_noise = 0;       ///< SD over lifts of the log of the grip force
     double preload_time = 0;     ///< time from touch to the onset of the load force [s]
     double load_time = 0;        ///< duration of the load phase at an expected weight of 0 [s]
     double load_time_rise = 0;   ///< increase of this duration per expected weight [s/N]
+    double load_time_noise = 0;  ///< SD over lifts of the log of this duration
     double reflex_latency = 0;   ///< time from a touch, slip or load change to the response [s]
     double reflex_noise = 0;     ///< SD of the reflex latency over trials [s]
     double weight_learning = 0;  ///< share of a weight error that is corrected in the next lift
@@ -118,13 +121,16 @@ struct Traits {
         v("force_fast_learning", force_fast_learning, share);
         v("force_slow_retention", force_slow_retention, share);
         v("force_slow_learning", force_slow_learning, share);
+        v("force_noise", force_noise, share);
         v("force_generalisation", force_generalisation, angle.positive());
         v("safety_margin", safety_margin, Field::number().within(0, 0.95));
         v("least_grip", least_grip, Field::of(Quantity::force).within(0, 100));
         v("peak_grip", peak_grip, Field::number().within(1, 10));
+        v("grip_noise", grip_noise, share);
         v("preload_time", preload_time, time);
         v("load_time", load_time, time.positive());
         v("load_time_rise", load_time_rise, Field::number().within(0, 10));
+        v("load_time_noise", load_time_noise, share);
         v("reflex_latency", reflex_latency, Field::of(Quantity::time).within(0, 1));
         v("reflex_noise", reflex_noise, time);
         v("weight_learning", weight_learning, share);

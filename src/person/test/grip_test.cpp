@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "model/grasp.h"
@@ -18,7 +19,7 @@ namespace {
 class Held : public ::testing::Test {
   protected:
     Held() : grip_(numb(), {memory()}, kTick) {
-        grip_.set(traits_.reflex_latency, 1, 1);
+        grip_.set({.latency = traits_.reflex_latency});
         felt_.body = 0;
         felt_.friction = 0.8;
         run(0.1);
@@ -256,6 +257,35 @@ TEST(Lifts, OfRealObjectsHaveTheFiguresOfPeople) {
     // the previous lift determines the expected weight
     EXPECT_GT(*std::min_element(after_heavier.begin(), after_heavier.end()),
               *std::max_element(after_lighter.begin(), after_lighter.end()));
+}
+
+TEST(Lifts, VaryFromTrialToTrialAsThoseOfPeople) {
+    Traits traits = median_person(Objects::device);
+    traits.id = "S01";
+    const TraitSpread* noise = nullptr;
+    for (const TraitSpread& trait : shipped_population(Objects::device).traits) {
+        if (trait.trait == "grip_noise") noise = &trait;
+    }
+    ASSERT_NE(noise, nullptr);
+    traits.grip_noise = *noise->median;
+    Sitting sitting("grip-and-lift");
+    session::Plan plan = sitting.plan();
+    sit_down(plan, traits);
+    std::map<std::string, std::vector<double>> holds;  // log of the grip, by condition
+    for (const Lift& lift : lifts(plan)) {
+        if (lift.done) holds[lift.condition].push_back(std::log(lift.grip));
+    }
+    double squares = 0;
+    double n = 0;
+    for (const auto& [condition, x] : holds) {
+        const double mean =
+            std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+        for (const double value : x) squares += std::pow(value - mean, 2);
+        n += static_cast<double>(x.size()) - 1;
+    }
+    // WAY-EEG-GAL, one person: 0.13 between successive lifts, 0.20 over a series
+    EXPECT_GT(std::sqrt(squares / n), 0.7 * 0.13);
+    EXPECT_LT(std::sqrt(squares / n), 1.4 * 0.20);
 }
 
 TEST(Lifts, WithDirectionalMassAreLearnedByASingleRate) {

@@ -83,11 +83,14 @@ TEST(Reaches, OverSeveralStatesAreLearnedAsInOne) {
     EXPECT_GT(one[22], 8);
 }
 
-TEST(Reaches, OfANoisyPersonGiveBackItsRates) {
+/// How many of the intervals of a fit to a noisy person's reaches contain the person's true rate,
+/// of four. Checks that the fit is as good as the truth, and near it.
+int rates_given_back(const std::string& id) {
+    SCOPED_TRACE(id);
     session::Plan plan = Sitting("rotation-reversal").plan();
     // noise, and rates that a fit can tell apart; some people drawn learn at one rate only
     Traits traits = median_person(Objects::device);
-    traits.id = "P01";
+    traits.id = id;
     traits.fast_retention = 0.62;
     traits.fast_learning = 0.26;
     traits.slow_retention = 0.999;
@@ -111,12 +114,17 @@ TEST(Reaches, OfANoisyPersonGiveBackItsRates) {
     EXPECT_LT(off, 0.5 * fit.residual_sd);
     EXPECT_NEAR(fit.residual_sd, traits.direction_noise / kDegree, 1.5);
     const auto within = [](double value, const analysis::Interval& interval) {
-        return value >= interval.low && value <= interval.high;
+        return value >= interval.low && value <= interval.high ? 1 : 0;
     };
-    EXPECT_TRUE(within(traits.fast_learning, fit.learning_fast));
-    EXPECT_TRUE(within(traits.slow_learning, fit.learning_slow));
-    EXPECT_TRUE(within(traits.fast_retention, fit.retention_fast));
-    EXPECT_TRUE(within(traits.slow_retention, fit.retention_slow));
+    return within(traits.fast_learning, fit.learning_fast) +
+           within(traits.slow_learning, fit.learning_slow) +
+           within(traits.fast_retention, fit.retention_fast) +
+           within(traits.slow_retention, fit.retention_slow);
+}
+
+TEST(Reaches, OfNoisyPeopleGiveBackTheirRates) {
+    // of twelve intervals of 95 %, at least ten contain the truth in 98 of 100 such tests
+    EXPECT_GE(rates_given_back("P01") + rates_given_back("P02") + rates_given_back("P03"), 10);
 }
 
 TEST(Reaches, AreMendedInPartOnceTheyAreSeenToGoWrong) {
