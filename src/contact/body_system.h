@@ -84,13 +84,22 @@ class BodySystem {
         double most = 0;
         for (size_t j = 0; j < rows_.size(); ++j) {
             const ContactRows& row = rows_[j];
+            const bool is_contact = row.law.joint == nullptr;
             Vec u = row.q;
-            add_velocity(row, u);
+            if (is_contact) {
+                add_velocity<law::touches<Law>()>(row, u);
+            } else {
+                add_velocity<law::Touches::all>(row, u);
+            }
             u[0] += row.compliance * r[j][0];
             const Vec before = r[j];
             law::relax<D>(law, row.law, r[j], u, j);
             const Vec change = r[j] - before;
-            apply(row, change);
+            if (is_contact) {
+                apply<law::touches<Law>()>(row, change);
+            } else {
+                apply<law::Touches::all>(row, change);
+            }
             most = std::max(most, change.squaredNorm() / (row.unit * row.unit));
         }
         return most;
@@ -128,15 +137,36 @@ class BodySystem {
     /// Moves the compliance of soft contacts from W to G and c.
     void soften(std::span<Linearised<D>> contacts) const noexcept;
     void gather(std::span<const Vec> r) noexcept;
-    /// Adds H' r of one contact to y.
+    /// Adds H' r of one contact to y. Rows of r that `which` excludes must be zero.
+    template <law::Touches which = law::Touches::all>
     void apply(const ContactRows& row, const Vec& r) noexcept {
-        if (row.a != kFixed) y_[static_cast<size_t>(row.a)].noalias() += row.Ht_a * r;
-        if (row.b != kFixed) y_[static_cast<size_t>(row.b)].noalias() += row.Ht_b * r;
+        const auto add = [&](int body, const Ht& H_t) {
+            if (body == kFixed) return;
+            Vec6& y = y_[static_cast<size_t>(body)];
+            if constexpr (which == law::Touches::normal) {
+                y.noalias() += H_t.col(0) * r[0];
+            } else if constexpr (which == law::Touches::friction) {
+                y.noalias() +=
+                    H_t.template rightCols<D - 1>().lazyProduct(r.template tail<D - 1>());
+            } else {
+                y.noalias() += H_t.lazyProduct(r);
+            }
+        };
+        add(row.a, row.Ht_a);
+        add(row.b, row.Ht_b);
     }
-    /// Adds H y for one contact to u.
+    /// Adds H y for one contact to u, or to those rows of u that `which` includes.
+    template <law::Touches which = law::Touches::all>
     void add_velocity(const ContactRows& row, Vec& u) const noexcept {
-        if (row.a != kFixed) u.noalias() += row.Ht_a.transpose() * y_[static_cast<size_t>(row.a)];
-        if (row.b != kFixed) u.noalias() += row.Ht_b.transpose() * y_[static_cast<size_t>(row.b)];
+        const auto add = [&](int body, const Ht& H_t) {
+            if (body == kFixed) return;
+            const Vec6& y = y_[static_cast<size_t>(body)];
+            constexpr int first = which == law::Touches::friction ? 1 : 0;
+            constexpr int end = which == law::Touches::normal ? 1 : D;
+            for (int i = first; i < end; ++i) u[i] += H_t.col(i).dot(y);
+        };
+        add(row.a, row.Ht_a);
+        add(row.b, row.Ht_b);
     }
 
     std::vector<ContactRows> rows_;

@@ -77,6 +77,14 @@ struct Linearised {
 
 namespace law {
 
+/// The rows of a contact that a sweep reads and changes.
+enum class Touches { all, normal, friction };
+template <class Law>
+constexpr Touches touches() {
+    if constexpr (requires { Law::kTouches; }) return Law::kTouches;
+    return Touches::all;
+}
+
 /// Functions for the rows of a joint, which do not depend on the contact law.
 struct Joint {
     template <int D>
@@ -245,6 +253,7 @@ struct Coulomb {
 /// projection of staggered projections.
 struct NormalOnly {
     static constexpr int kVisits = 1;
+    static constexpr Touches kTouches = Touches::normal;
     template <int D>
     static double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
                             const Eigen::Matrix<double, D, 1>& u, double rho, Linearised<D>& out,
@@ -279,6 +288,7 @@ struct NormalOnly {
 /// trace(W_TT). These steps keep sweeps stable however much the rows differ; the torsion row is
 /// often by far the smallest.
 struct FrictionOfLoad {
+    static constexpr Touches kTouches = Touches::friction;
     template <int D>
     static void relax(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
                       const Eigen::Matrix<double, D, 1>& u, size_t contact) noexcept {

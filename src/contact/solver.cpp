@@ -226,6 +226,9 @@ class Solve {
         project();
         const Residual projected = cone_residual();
         if (projected.judged() <= kTolerance) return projected;
+        // sweeps end inside the cone, except for rounding
+        if (stats_.route == Route::sequential_impulse || stats_.route == Route::out_of_work)
+            return projected;
         const auto swap = [&] {
             std::swap_ranges(r_.begin(), r_.end(), newton_memory_.best.begin());
             return cone_residual();
@@ -249,7 +252,7 @@ class Solve {
     Residual cone_residual() {
         system_.velocity(r_, newton_memory_.u);
         return coulomb_residual(system_, std::span<const Vec>(r_),
-                                std::span<const Vec>(newton_memory_.u), size_);
+                                std::span<const Vec>(newton_memory_.u), size_, kTolerance);
     }
 
     System& system_;

@@ -51,6 +51,9 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
                              .impulse_W = h * contact.f_B_W,
                              .moment_W = h * contact.moment * n_W};
     const Books::Meeting meeting = books.meet(exchange.a, exchange.b, exchange.p_W);
+    const bool is_rigid = law.stiffness == 0 && law.compliance == 0;
+    if (is_rigid) books.check_gap(exchange, meeting, n_W, contact.gap);
+    if (is_rigid && exchange.impulse_W.isZero(0) && contact.moment == 0) return;
     const double normal = h * contact.normal_force;
     const double mean_work = normal * n_W.dot(meeting.v_mean);
     // pressure must not separate bodies, and friction must not drive their sliding
@@ -79,8 +82,6 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
         // the time of contact within the step is unknown, and so is the loads' work until then
         pressing = mean_work - std::abs(loads_at(contact, point) * h);
     }
-    if (law.stiffness == 0 && law.compliance == 0)
-        books.check_gap(exchange, meeting, n_W, contact.gap);
     exchange.found = std::max(0.0, pressing) + std::max(0.0, rubbing);
     books.take(exchange, meeting);
 }
