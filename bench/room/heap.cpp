@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "base/diagnostics.h"
 #include "base/random.h"
 #include "bench/bench_log.h"
 #include "bench/shaking.h"
@@ -71,6 +73,15 @@ void let_fall(scene::Scene& scene) {
     }
 }
 
+void finish(recording::Recorder& recorder) {
+    recorder.finish();
+    if (recorder.dropped() == 0) return;
+    throw Error(fmt::format("the log lost {} ticks, because its thread had too little processor "
+                            "time",
+                            recorder.dropped()),
+                "close other programs");
+}
+
 }  // namespace
 
 HeapFigures measure_heap(const measure::BenchSetup& base, int loose) {
@@ -94,7 +105,7 @@ HeapFigures measure_heap(const measure::BenchSetup& base, int loose) {
     measure::Bench bench(scene, measure::grasp_hand(setup), setup);
     dynamics::World& world = bench.servo().world();
     const BenchLog log(scene, setup.settings);
-    recording::Recorder recorder = log.record(recording::Writing::in_place);
+    recording::Recorder recorder = log.record(recording::Writing::in_thread);
     const auto hold = bench.driver().phases()[measure::kHold];
     analysis::GraspTrace trace(1, setup.settings.tick());
     servo::TickTimes all;
@@ -111,6 +122,9 @@ HeapFigures measure_heap(const measure::BenchSetup& base, int loose) {
             if (frame.phase != measure::kHold) return;
             out.held_residual = std::max(out.held_residual, frame.solver_held_residual);
             out.ended += world.solve_stats().ended ? 1 : 0;
+            out.unbalanced += (frame.status & kUnbalanced) != 0 ? 1 : 0;
+            for (const contact::Contact& contact : world.contacts())
+                out.overlap_mm = std::max(out.overlap_mm, -1e3 * contact.gap);
         },
         [&](const frame::Frame& last, std::span<const frame::Handle>, frame::Commands&) {
             const double time = static_cast<double>(last.sequence + 1) * setup.settings.tick();
@@ -125,6 +139,7 @@ HeapFigures measure_heap(const measure::BenchSetup& base, int loose) {
     out.tick_median_us = held.quantile(0.5);
     out.tick_p99_us = held.quantile(0.99);
     out.tick_max_us = held.quantile(1);
+    finish(recorder);
     out.hf_force_n = trace.force_above_5_hz(trace.of_phase(measure::kHold));
     return out;
 }

@@ -13,6 +13,8 @@ struct HeapFigures {
     double held_residual = 0;
     double tick_median_us = 0, tick_p99_us = 0, tick_max_us = 0;
     int ended = 0;
+    int unbalanced = 0;
+    double overlap_mm = 0;
     double hf_force_n = 0;
 
     template <class Self, class Visitor>
@@ -23,6 +25,8 @@ struct HeapFigures {
         v("tick_p99_us", f.tick_p99_us, "us", "");
         v("tick_max_us", f.tick_max_us, "us", "");
         v("ended", f.ended, "1", "ticks in which the limit of work ended an island");
+        v("unbalanced", f.unbalanced, "1", "ticks in which the books did not balance");
+        v("overlap_mm", f.overlap_mm, "mm", "largest depth of two bodies in each other");
         v("hf_force_n", f.hf_force_n, "N", "handle force above 5 Hz, RMS");
     }
 };

@@ -326,11 +326,11 @@ ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b,
     const Vec3 way_A = X_WA.R.conjugate() * way_W;
     const Vec3 way_B = X_WB.R.conjugate() * -way_W;
     const FaceQuery on_a = query_faces(a, b, X_AB, margin, way_A);
-    if (on_a.separation > margin) return patch;
+    if (on_a.separation > margin) return no_contact(on_a.separation);
     const FaceQuery on_b = query_faces(b, a, X_AB.inverse(), margin, way_B);
-    if (on_b.separation > margin) return patch;
+    if (on_b.separation > margin) return no_contact(on_b.separation);
     const EdgeQuery edges = query_edges(a, b, X_AB, margin);
-    if (edges.separation > margin) return patch;
+    if (edges.separation > margin) return no_contact(edges.separation);
 
     const Choice choice = choose(a, b, X_AB, on_a, on_b, edges);
     if (choice.face_of_a >= 0) {

@@ -67,7 +67,16 @@ struct ContactPatch {
     Vec3 n_W = Vec3::UnitZ();  ///< unit vector, from A to B
     std::array<ContactPoint, 4> points;
     int count = 0;
+    /// If there are no points: a distance that the shapes certainly keep, if greater than 0 [m].
+    double apart = 0;
 };
+
+/// An empty patch of shapes that are at least `apart` away from each other [m].
+inline ContactPatch no_contact(double apart) noexcept {
+    ContactPatch out;
+    out.apart = apart;
+    return out;
+}
 
 /// Finds contacts with gaps of up to `margin` [m]. `way_W` is the displacement of B relative to A
 /// in the coming step [m]. Does not allocate.

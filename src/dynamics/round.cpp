@@ -19,6 +19,8 @@ constexpr double kCap = 0.9;
 constexpr double kParallel = 0.02;
 /// Maximum number of projections in the search for closest points.
 constexpr int kMostTurns = 60;
+/// Room for the vertices of a polyhedron of up to 64 edges, in the world.
+constexpr size_t kMostCorners = 64;
 /// Closest points nearer to each other than this do not define a direction [m].
 constexpr double kTogether = 1e-9;
 
@@ -490,14 +492,19 @@ void try_edges(const Corners& a, const Placed& b, double margin, Best& best) {
         std::tie(on_a, on_b) = found;
     };
     const Polyhedron::Edge* nearest = nullptr;
+    std::array<Vec3, kMostCorners> corners;  // each belongs to several edges
+    const bool fit = a.shape.vertices.size() <= corners.size();
+    for (size_t i = 0; fit && i < a.shape.vertices.size(); ++i)
+        corners[i] = a.vertex(static_cast<int>(i));
+    const auto corner = [&](int i) { return fit ? corners[static_cast<size_t>(i)] : a.vertex(i); };
     for (const Polyhedron::Edge& e : a.shape.edges) {
         const double before = least;
-        look(a.vertex(e.from), a.vertex(e.to) - a.vertex(e.from), 4);
+        look(corner(e.from), corner(e.to) - corner(e.from), 4);
         if (least < before) nearest = &e;
     }
     if (nearest == nullptr) return;
     if (core.radius > 0)
-        look(a.vertex(nearest->from), a.vertex(nearest->to) - a.vertex(nearest->from), kMostTurns);
+        look(corner(nearest->from), corner(nearest->to) - corner(nearest->from), kMostTurns);
     const auto along = [&](const Vec3& u) {
         return u.dot(b.centre) - b.extent(-u) - a.furthest(u);
     };
@@ -610,11 +617,11 @@ ContactPatch collide(const Round& shape_a, const Pose& X_WA, const Round& shape_
     Best best;
     try_caps(a, b, Best::cap_of_a, best);
     try_caps(a, b, Best::cap_of_b, best);
-    if (best.separation > margin) return patch;
+    if (best.separation > margin) return no_contact(best.separation);
     if (best.kind != Best::line) cap_contact(a, b, best, margin, patch);
     if (settles(patch, best.separation)) return patch;
     try_lines(a, b, margin, best);
-    if (best.separation > margin) return {};
+    if (best.separation > margin) return no_contact(best.separation);
     if (!is_line(best, patch)) return patch;
     Polygon of_a;
     Polygon of_b;
@@ -633,7 +640,7 @@ ContactPatch collide(const Polyhedron& shape_a, const Pose& X_WA, const Round& s
     const Placed b(shape_b, X_WB);
     int flush = -1;
     Best best = best_face(a, b, margin, way_W, flush);
-    if (best.separation > margin) return patch;
+    if (best.separation > margin) return no_contact(best.separation);
     const Vec3 n_flush =
         flush < 0 ? best.axis : Vec3(X_WA.R * shape_a.faces[static_cast<size_t>(flush)].normal);
     if (flush >= 0 && (best.at == flush || is_across(best.axis, n_flush))) {
@@ -649,7 +656,7 @@ ContactPatch collide(const Polyhedron& shape_a, const Pose& X_WA, const Round& s
     if (best.kind == Best::face) look_ahead(b, turn_W, patch);
     if (!settles(patch, best.separation)) {
         try_edges(a, b, margin, best);
-        if (best.separation > margin) return {};
+        if (best.separation > margin) return no_contact(best.separation);
         if (flush >= 0 && best.kind == Best::line) return {};
         if (is_line(best, patch)) {
             Polygon of_a;

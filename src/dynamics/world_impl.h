@@ -194,6 +194,11 @@ struct World::Impl {
     /// If one body of a joint waits, makes the other wait too, because the joint would tear
     /// otherwise. Returns false if nothing changed.
     bool wait_together();
+    /// Number of visits for the solve of the island in `problem`.
+    int most_work(bool held);
+    /// Whether the island in `problem`, which no finger touches, is too large to be solved exactly
+    /// in a tick. Such an island is solved once, and its contacts may be carried along.
+    bool is_heap(const contact::SolveStats& stats);
     contact::SolveStats solve_island(double h, bool held);
     /// If a body bounces, solves the island again for the velocities after the step.
     void let_bounce(const contact::SolveSettings& how, double h, contact::SolveStats& stats);

@@ -16,6 +16,9 @@ TEST(HeapBench, AHeapBesideItDoesNotCostTheHandItsExactness) {
     EXPECT_GT(figures.ended, 500);
     EXPECT_LE(figures.ended, 1000);
     EXPECT_GT(figures.tick_median_us, 0);
+    EXPECT_EQ(figures.unbalanced, 0);
+    EXPECT_GT(figures.overlap_mm, 0);
+    EXPECT_LE(figures.overlap_mm, 0.2);
 }
 
 }  // namespace

@@ -42,19 +42,11 @@ int64_t stride_visits(const CollisionPart& a, const CollisionPart& b) {
 
 /// Largest speed due to rotation of any point of a body's part; the body's centre may lie anywhere
 /// [m/s].
-double turning(const btCollisionObject& body, const btCollisionShape& shape,
-               const btTransform& X_WS) {
-    const btScalar speed = body.getInterpolationAngularVelocity().length();
+double turning(const CollisionPart& part, const btTransform& X_WS) {
+    const btScalar speed = part.body->getInterpolationAngularVelocity().length();
     if (speed == 0) return 0;
-    btVector3 centre;
-    btScalar radius = 0;
-    shape.getBoundingSphere(centre, radius);
-    const btVector3 off = X_WS * centre - body.getWorldTransform().getOrigin();
-    return speed * (off.length() + radius);
-}
-
-double turning(const btCollisionObjectWrapper& part) {
-    return turning(*part.getCollisionObject(), *part.getCollisionShape(), part.getWorldTransform());
+    const btVector3 off = X_WS * part.centre - part.body->getWorldTransform().getOrigin();
+    return speed * (off.length() + part.radius);
 }
 
 /// Moves a body for a time t at its current velocities.
@@ -125,10 +117,10 @@ btDefaultCollisionConstructionInfo pools(int max_pairs) {
 
 }  // namespace
 
-double approach(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double h) {
-    const btVector3 closing = a.getCollisionObject()->getInterpolationLinearVelocity() -
-                              b.getCollisionObject()->getInterpolationLinearVelocity();
-    return h * (closing.length() + turning(a) + turning(b));
+double approach(const CollisionPart& a, const CollisionPart& b, double h) {
+    const btVector3 closing =
+        a.body->getInterpolationLinearVelocity() - b.body->getInterpolationLinearVelocity();
+    return h * (closing.length() + a.turning + b.turning);
 }
 
 Collision::Collision(int max_parts, int max_pairs)
@@ -205,7 +197,7 @@ void Collision::set_bounds(CollisionPart& part, double h, bool keep) {
     const btTransform X_WS = part.X_WS();
     part.shape->getAabb(X_WS, low, high);
     const btVector3 travel = h * part.body->getInterpolationLinearVelocity();
-    const double most = kApproach + h * turning(*part.body, *part.shape, X_WS);
+    const double most = kApproach + h * turning(part, X_WS);
     const btVector3 margin = travel.absolute() + btVector3(most, most, most);
     low -= margin;
     high += margin;
@@ -232,6 +224,8 @@ void Collision::forget() {
 void Collision::find_contacts(double h) {
     search_was_cut_ = is_unsure_ = false;
     step_ = h;
+    ++placing_;
+    ++timing_;
     btDispatcherInfo info;
     info.m_timeStep = h;
     manifolds_.clear();
@@ -288,6 +282,34 @@ void Collision::remove_inner() {
     }
 }
 
+OwnAlgorithm* Collision::own(const btBroadphasePair& pair) {
+    const bool is_own = part(pair.m_pProxy0).is_own() && part(pair.m_pProxy1).is_own();
+    return is_own ? static_cast<OwnAlgorithm*>(pair.m_algorithm) : nullptr;
+}
+
+void Collision::place(CollisionPart& part) const {
+    if (part.placing == placing_) return;
+    const btTransform X_WS = part.X_WS();
+    const bool first = part.placing == 0;
+    part.placing = placing_;
+    if (!first && X_WS == part.placed_at) return;
+    const Pose last = part.X_WS_placed;
+    part.placed_at = X_WS;
+    part.X_WS_placed = from_bullet(X_WS);
+    if (first) return;
+    const Pose& now = part.X_WS_placed;
+    const Vec3 centre = from_bullet(part.centre);
+    // a point at the distance r from the axis of a turn by an angle moves by 2 r sin(angle / 2)
+    part.way += (now * centre - last * centre).norm() +
+                2 * (now.R * last.R.conjugate()).vec().norm() * part.radius;
+}
+
+void Collision::time(CollisionPart& part) const {
+    if (part.timing == timing_) return;
+    part.timing = timing_;
+    part.turning = turning(part, part.X_WS());
+}
+
 void Collision::list_live_pairs() {
     const auto awake = [](const btBroadphaseProxy* proxy) {
         return part(proxy).body->getUserIndex2() == kAwake;
@@ -302,17 +324,41 @@ void Collision::list_live_pairs() {
 }
 
 bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
-    const CollisionPart& part_a = part(pair.m_pProxy0);
-    const CollisionPart& part_b = part(pair.m_pProxy1);
+    CollisionPart& part_a = part(pair.m_pProxy0);
+    CollisionPart& part_b = part(pair.m_pProxy1);
+    for (CollisionPart* each : {&part_a, &part_b}) {
+        place(*each);
+        time(*each);
+    }
+    OwnAlgorithm* const known = own(pair);
+    if (known != nullptr && known->stay_apart(part_a, part_b)) return false;
+    if (known != nullptr && may_be_carried(part_a, part_b) && known->carry(part_a, part_b)) {
+        scratch_.resizeNoInitialize(0);
+    } else if (!examine(pair, part_a, part_b, info)) {
+        return false;
+    }
+    pair.m_algorithm->getAllContactManifolds(scratch_);
+    return list_found(part_a, part_b);
+}
+
+bool Collision::may_be_carried(const CollisionPart& a, const CollisionPart& b) {
+    const auto may = [](const CollisionPart& one) {
+        return one.body->isStaticObject() || one.body->getUserIndex3() == kInHeap;
+    };
+    return may(a) && may(b);
+}
+
+bool Collision::examine(btBroadphasePair& pair, const CollisionPart& part_a,
+                        const CollisionPart& part_b, const btDispatcherInfo& info) {
     btCollisionObject& a = *part_a.body;
     btCollisionObject& b = *part_b.body;
-    const btTransform X_WA = part_a.X_WS();
-    const btTransform X_WB = part_b.X_WS();
-    const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, X_WA, -1, -1);
-    const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
+    const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, part_a.placed_at, -1,
+                                          -1);
+    const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, part_b.placed_at, -1,
+                                          -1);
     // contacts between convex hulls are found before the hulls touch; Bullet derives the distance
     // at which that happens from three settings
-    const double margin = std::min(kMostHullMargin, kHullMargin + approach(a_wrap, b_wrap, step_));
+    const double margin = std::min(kMostHullMargin, kHullMargin + approach(part_a, part_b, step_));
     dispatcher_.margin = margin;
     scratch_.resizeNoInitialize(0);
     if (pair.m_algorithm == nullptr) {
@@ -327,7 +373,12 @@ bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
     btManifoldResult result(&a_wrap, &b_wrap);
     result.m_closestPointDistanceThreshold = margin;
     pair.m_algorithm->processCollision(&a_wrap, &b_wrap, info, &result);
-    pair.m_algorithm->getAllContactManifolds(scratch_);
+    return true;
+}
+
+bool Collision::list_found(const CollisionPart& part_a, const CollisionPart& part_b) {
+    btCollisionObject& a = *part_a.body;
+    btCollisionObject& b = *part_b.body;
     bool woke = false;
     for (int m = 0; m < scratch_.size(); ++m) {
         if (scratch_[m]->getNumContacts() == 0) continue;
@@ -346,6 +397,7 @@ bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
 
 bool Collision::find_entered(double h, double recovery, contact::Work& work) {
     if (live_is_stale_ || live_version_ != pairs_.version) list_live_pairs();
+    ++timing_;
     new_.clear();
     for (const int i : live_) {
         if (entered_count_ == entered_.size() || search_was_cut_) break;
@@ -395,8 +447,12 @@ bool Collision::meet(const btCollisionObjectWrapper& a, const btCollisionObjectW
 template <class Visit>
 double Collision::walk(btBroadphasePair& pair, double h, int first, btPersistentManifold& out,
                        contact::Work& work, const Visit& visit) {
-    const CollisionPart& part_a = part(pair.m_pProxy0);
-    const CollisionPart& part_b = part(pair.m_pProxy1);
+    CollisionPart& part_a = part(pair.m_pProxy0);
+    CollisionPart& part_b = part(pair.m_pProxy1);
+    time(part_a);
+    time(part_b);
+    const double way = approach(part_a, part_b, h);
+    if (!(way > kEntered)) return 1;  // also true if `way` is not a number
     btRigidBody& a = *btRigidBody::upcast(part_a.body);
     btRigidBody& b = *btRigidBody::upcast(part_b.body);
     const btTransform from_a = a.getWorldTransform();
@@ -405,8 +461,6 @@ double Collision::walk(btBroadphasePair& pair, double h, int first, btPersistent
     btTransform X_WB = part_b.X_WS();
     const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, X_WA, -1, -1);
     const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
-    const double way = approach(a_wrap, b_wrap, h);
-    if (!(way > kEntered)) return 1;  // also true if `way` is not a number
     const btPersistentManifold* known = manifold_of(pair);
     // bodies may enter soft bodies, to the depth that their contact allows
     if (known != nullptr && is_soft(*known)) return 1;
@@ -450,6 +504,7 @@ bool Collision::enters(btBroadphasePair& pair, double h, double recovery, btPers
 
 bool Collision::hold_back(double h, contact::Work& work) {
     if (live_is_stale_ || live_version_ != pairs_.version) list_live_pairs();
+    ++timing_;
     btPersistentManifold& out = waiting_;
     const auto keep_out = [&](btBroadphasePair& pair) {
         double at_first = 0;

@@ -114,12 +114,27 @@ class Collision {
         return *static_cast<CollisionPart*>(bounds->m_clientObject);
     }
     void set_bounds(CollisionPart& part, double h, bool keep);
+    /// Returns the pair's algorithm if it is one of our own, otherwise null.
+    static OwnAlgorithm* own(const btBroadphasePair& pair);
+    /// Whether the contacts of two parts may be carried along: each of them is part of a heap or
+    /// fixed.
+    static bool may_be_carried(const CollisionPart& a, const CollisionPart& b);
+    /// Computes the part's pose, unless this search has already done so.
+    void place(CollisionPart& part) const;
+    /// Computes the part's speed due to turning, unless this search has already done so.
+    void time(CollisionPart& part) const;
     void reserve_pairs(int pairs);
     void sort_by_bodies();
     /// Removes contacts at points inside bodies that consist of several parts (seams.h).
     void remove_inner();
     void list_live_pairs();
+    /// Finds the contacts of a pair. Returns whether a body woke up.
     bool look_at(btBroadphasePair& pair, const btDispatcherInfo& info);
+    /// Computes the contacts of a pair. Returns false if there is no algorithm for its parts.
+    bool examine(btBroadphasePair& pair, const CollisionPart& part_a, const CollisionPart& part_b,
+                 const btDispatcherInfo& info);
+    /// Lists the manifolds in scratch_. Returns whether a body woke up.
+    bool list_found(const CollisionPart& part_a, const CollisionPart& part_b);
     /// Whether the work budget suffices for another stride. If so, spends that work; if not, notes
     /// that the search was cut.
     bool affords(contact::Work& work, int64_t visits);
@@ -162,6 +177,8 @@ class Collision {
     int max_pairs_;
     OtherBodies other_bodies_;
     std::vector<CollisionPart*> parts_;
+    int64_t placing_ = 0;         // number of the current search; bodies do not move within it
+    int64_t timing_ = 0;          // the same, but the velocities do not change within it
     bool several_parts_ = false;  // whether any body has several parts
     struct OfBodies {
         std::array<int, 3> key;  // indices of both bodies, and the order of detection
@@ -185,12 +202,15 @@ class Collision {
 };
 
 constexpr int kAwake = 1;
+/// User index 3 of bodies that were part of a heap in the last step (World::Impl::is_heap): their
+/// contacts with each other may be carried along.
+constexpr int kInHeap = 1;
 /// Depth to which a step may let a body enter another [m].
 constexpr double kEntered = 1e-4;
 
 /// Returns how much closer the surfaces of two body parts may come to each other in a step,
 /// according to their velocities before contacts act. Parts that are farther apart than this cannot
 /// touch in the step [m].
-double approach(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double h);
+double approach(const CollisionPart& a, const CollisionPart& b, double h);
 
 }  // namespace dihaptic::dynamics

@@ -18,6 +18,8 @@ namespace {
 /// could approach each other by more in the step.
 constexpr double kMargin = 5e-4;      // [m]
 constexpr double kMostMargin = 0.25;  // [m]
+/// Contacts are carried along while the sum of the ways of both parts is at most this [m].
+constexpr double kMostCarried = 5e-5;
 /// A new contact continues an old one if the two are within this distance on the body.
 constexpr double kSamePoint = 5e-3;  // [m]
 
@@ -25,15 +27,21 @@ const CollisionPart& part_of(const btCollisionObjectWrapper& part) {
     return *static_cast<const CollisionPart*>(part.getCollisionShape()->getUserPointer());
 }
 
+Pose pose_of(const btCollisionObjectWrapper& wrap) {
+    const CollisionPart& part = part_of(wrap);
+    const btTransform& X_WS = wrap.getWorldTransform();
+    return &X_WS == &part.placed_at ? part.X_WS_placed : from_bullet(X_WS);
+}
+
 bool is_plane(const btCollisionObjectWrapper& part) {
     return part.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
 }
 
-class Algorithm final : public btActivatingCollisionAlgorithm {
+class Algorithm final : public OwnAlgorithm {
   public:
     Algorithm(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
               const btCollisionObjectWrapper* b, const double& step)
-        : btActivatingCollisionAlgorithm(info, a, b), manifold_(info.m_manifold), step_(step) {
+        : OwnAlgorithm(info, a, b, step) {
         if (manifold_ == nullptr) {
             manifold_ =
                 m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject());
@@ -48,15 +56,19 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
                           const btCollisionObjectWrapper* b_wrap, const btDispatcherInfo&,
                           btManifoldResult* result) override {
         const btCollisionObject& a = *a_wrap->getCollisionObject();
-        const Pose X_WA = from_bullet(a_wrap->getWorldTransform());
-        const Pose X_WB = from_bullet(b_wrap->getWorldTransform());
-        const double margin = std::min(kMostMargin, kMargin + approach(*a_wrap, *b_wrap, step_));
+        const Pose X_WA = pose_of(*a_wrap);
+        const Pose X_WB = pose_of(*b_wrap);
+        const CollisionPart& part_a = part_of(*a_wrap);
+        const CollisionPart& part_b = part_of(*b_wrap);
+        const double margin = std::min(kMostMargin, kMargin + approach(part_a, part_b, step_));
         const Move move = {
             step_ * from_bullet(b_wrap->getCollisionObject()->getInterpolationLinearVelocity() -
                                 a.getInterpolationLinearVelocity()),
             step_ * from_bullet(b_wrap->getCollisionObject()->getInterpolationAngularVelocity() -
                                 a.getInterpolationAngularVelocity())};
         ContactPatch patch = meet(*a_wrap, X_WA, *b_wrap, X_WB, margin, move);
+        examined_at_ = part_a.way + part_b.way;
+        apart_until_ = examined_at_ + patch.apart;
         result->setPersistentManifold(manifold_);
         store(patch, X_WA, X_WB, manifold_->getBody0() == &a);
     }
@@ -99,14 +111,25 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
                    : collide(*a.polyhedron, X_WA, *b.polyhedron, X_WB, margin, move.way_W);
     }
 
+    /// What a new point takes over from an old one.
+    struct Old {
+        btVector3 local_a;
+        void* data = nullptr;
+        int life_time = 0;
+        bool taken = false;
+    };
+
     /// Replaces the manifold's points. Bullet's normal points from its body 1 to its body 0.
     void store(ContactPatch& patch, const Pose& X_WA, const Pose& X_WB, bool a_is_body0) {
-        std::array<btManifoldPoint, 4> old;
-        std::array<bool, 4> taken{};
+        std::array<Old, 4> old;
         const int old_count = manifold_->getNumContacts();
-        for (int i = 0; i < old_count; ++i)
-            old[static_cast<size_t>(i)] = manifold_->getContactPoint(i);
+        for (int i = 0; i < old_count; ++i) {
+            const btManifoldPoint& point = manifold_->getContactPoint(i);
+            old[static_cast<size_t>(i)] = {point.m_localPointA, point.m_userPersistentData,
+                                           point.m_lifeTime};
+        }
         manifold_->clearManifold();
+        if (patch.count == 0) return;
         if (!a_is_body0) flip(patch);
         const Pose& X_W0 = a_is_body0 ? X_WA : X_WB;
         const Pose& X_W1 = a_is_body0 ? X_WB : X_WA;
@@ -122,31 +145,66 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
             int nearest = -1;
             double distance = kSamePoint * kSamePoint;
             for (int j = 0; j < old_count; ++j) {
-                const double d =
-                    (old[static_cast<size_t>(j)].m_localPointA - out.m_localPointA).length2();
+                const Old& one = old[static_cast<size_t>(j)];
+                const double d = (one.local_a - out.m_localPointA).length2();
                 // a single point counts as the same one while a round body rolls
                 const bool only = old_count == 1 && patch.count == 1;
-                if (!taken[static_cast<size_t>(j)] && (d < distance || only)) {
+                if (!one.taken && (d < distance || only)) {
                     distance = d;
                     nearest = j;
                 }
             }
             if (nearest >= 0) {
-                const btManifoldPoint& last = old[static_cast<size_t>(nearest)];
-                taken[static_cast<size_t>(nearest)] = true;
-                out.m_userPersistentData = last.m_userPersistentData;
-                out.m_lifeTime = last.m_lifeTime + 1;
+                Old& last = old[static_cast<size_t>(nearest)];
+                last.taken = true;
+                out.m_userPersistentData = last.data;
+                out.m_lifeTime = last.life_time + 1;
             }
             manifold_->addManifoldPoint(out);
         }
     }
 
-    btPersistentManifold* manifold_;
     bool owned_ = false;
-    const double& step_;
 };
 
 }  // namespace
+
+bool OwnAlgorithm::stay_apart(const CollisionPart& a, const CollisionPart& b) const noexcept {
+    const double left = apart_until_ - a.way - b.way;
+    return left > 0 && left > std::min(kMostMargin, kMargin + approach(a, b, step_));
+}
+
+bool OwnAlgorithm::carry(const CollisionPart& a, const CollisionPart& b) noexcept {
+    const auto may = [](const CollisionPart& part) { return !part.round || part.is_ball(); };
+    if (manifold_->getNumContacts() == 0 || !may(a) || !may(b)) return false;
+    if (a.way + b.way - examined_at_ > kMostCarried) return false;
+    const bool in_order = manifold_->getBody0() == a.body;
+    const CollisionPart& zero = in_order ? a : b;
+    const CollisionPart& one = in_order ? b : a;
+    for (int i = 0; i < manifold_->getNumContacts(); ++i) {
+        btManifoldPoint& point = manifold_->getContactPoint(i);
+        const Vec3 n_W = from_bullet(point.m_normalWorldOnB);  // towards body 0
+        // the point of a ball stays on the side of the other body while the ball rolls
+        const auto on = [&](const CollisionPart& part, const btVector3& p, double sign) {
+            const Pose& X_WS = part.X_WS_placed;
+            return part.is_ball() ? Vec3(X_WS.p + sign * part.round->radius * n_W)
+                                  : X_WS * from_bullet(p);
+        };
+        Vec3 on_zero = on(zero, point.m_localPointA, -1);
+        Vec3 on_one = on(one, point.m_localPointB, 1);
+        const double gap = n_W.dot(on_zero - on_one);
+        if (zero.is_ball()) {
+            on_one = on_zero - gap * n_W;
+        } else if (one.is_ball()) {
+            on_zero = on_one + gap * n_W;
+        }
+        point.m_positionWorldOnA = to_bullet(on_zero);
+        point.m_positionWorldOnB = to_bullet(on_one);
+        point.m_distance1 = gap;
+        ++point.m_lifeTime;
+    }
+    return true;
+}
 
 struct ContactAlgorithms::Create final : btCollisionAlgorithmCreateFunc {
     Create(const double& h, btCollisionAlgorithmCreateFunc* bullets)
@@ -155,10 +213,8 @@ struct ContactAlgorithms::Create final : btCollisionAlgorithmCreateFunc {
     btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                                    const btCollisionObjectWrapper* a,
                                                    const btCollisionObjectWrapper* b) override {
-        const auto known = [](const btCollisionObjectWrapper* w) {
-            return is_plane(*w) || part_of(*w).polyhedron || part_of(*w).round;
-        };
-        if (!known(a) || !known(b)) return otherwise->CreateCollisionAlgorithm(info, a, b);
+        if (!part_of(*a).is_own() || !part_of(*b).is_own())
+            return otherwise->CreateCollisionAlgorithm(info, a, b);
         void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Algorithm));
         return new (memory) Algorithm(info, a, b, step);
     }

@@ -157,6 +157,9 @@ std::vector<std::unique_ptr<CollisionPart>> collision_parts(const scene::Shape& 
         part->round = round(convex.shape);
         part->thickness = thickness_of(*part->shape, part->polyhedron.get());
         part->shape->setUserPointer(part.get());
+        btScalar radius = 0;
+        part->shape->getBoundingSphere(part->centre, radius);
+        part->radius = radius;
         part->X_MS = to_bullet(X_MS);
         part->moved = !X_MS.p.isZero(0) || !X_MS.R.vec().isZero(0);
         out.push_back(std::move(part));

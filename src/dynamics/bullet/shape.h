@@ -3,6 +3,7 @@
 
 #include <btBulletCollisionCommon.h>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -49,6 +50,28 @@ struct CollisionPart {
     bool moved = false;                   // whether X_MS is not the identity
     bool hidden = false;                  // whether the part currently has no contacts
     btBroadphaseProxy* bounds = nullptr;  // null until the part is added to a Collision
+
+    /// Whether its contacts with parts for which this is true, too, are found by our own code.
+    bool is_own() const {
+        return polyhedron || round || shape->getShapeType() == STATIC_PLANE_PROXYTYPE;
+    }
+
+    bool is_ball() const { return round && !round->has_rim() && round->half == 0; }
+
+    /// Bounding sphere, in S.
+    btVector3 centre{0, 0, 0};
+    double radius = 0;
+
+    /// The part's pose and largest speed due to turning, as Collision last found them: they are the
+    /// same for all pairs of the part.
+    btTransform placed_at;
+    Pose X_WS_placed;
+    int64_t placing = 0;  // number of the search for which the pose was computed
+    /// No point of the part has moved further than the increase of this sum since an earlier search
+    /// [m].
+    double way = 0;
+    double turning = 0;  // [m/s]
+    int64_t timing = 0;  // number of the search for which the speed was computed
 
     btTransform X_WS() const {
         return moved ? body->getWorldTransform() * X_MS : body->getWorldTransform();

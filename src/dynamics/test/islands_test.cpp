@@ -2,6 +2,7 @@
 // independently of the rest of the world.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/number.h"
@@ -61,6 +62,65 @@ TEST(Islands, AHeapDoesNotCostTheHandItsExactness) {
     EXPECT_GT(ended, 100);  // of a wall with some 200 contacts
     EXPECT_LT((alone.state({1}).X_WB.p - beside.state({1}).X_WB.p).norm(), 1e-9);
     EXPECT_NEAR(beside.state({1}).X_WB.p.z(), 0.3, 1e-3);
+}
+
+/// A world with a finger, and away from it a pit full of boxes and balls.
+World pit(int loose) {
+    scene::Scene scene;
+    scene.bodies = {table()};
+    for (int side = 0; side < 4; ++side) {
+        const bool along_x = side < 2;
+        const double at = side % 2 == 0 ? -0.1 : 0.1;
+        scene.bodies.push_back(box("wall " + number_text(side),
+                                   along_x ? Vec3(0.05, 0.25, 0.6) : Vec3(0.25, 0.05, 0.6),
+                                   along_x ? Vec3(at, 0, 0.3) : Vec3(0, at, 0.3), 0));
+    }
+    for (int i = 0; i < loose; ++i) {
+        scene::Body body =
+            box("loose " + number_text(i), {0.03, 0.035, 0.04},
+                {0.047 * (i % 3 - 1), 0.047 * (i / 3 % 3 - 1), 0.04 + 0.066 * (i / 9)}, 0.05);
+        if (i % 2 == 1) body.shape = scene::Shape::sphere(0.018);
+        body.rotation = {0.3 * i, 0.2 * i, 0.1 * i};
+        scene.bodies.push_back(body);
+    }
+    World world(scene, awake());
+    scene::Finger finger;
+    finger.name = "finger";
+    finger.shape = scene::Shape::sphere(0.01);
+    finger.mass = 0.02;
+    world.add_proxy(finger, {1, 0, 0.5});
+    world.activate();
+    return world;
+}
+/// What a pit was like while its bodies were stirred.
+struct Stirred {
+    double deepest = 0;       // [m]
+    int ended = 0;            // number of steps
+    Vec3 sum = Vec3::Zero();  // of all positions and velocities, at the end
+};
+Stirred stir(int loose, int ticks) {
+    World world = pit(loose);
+    Stirred out;
+    for (int tick = 0; tick < ticks; ++tick) {
+        for (int i = 5; i < 5 + loose; ++i)
+            world.apply({i}, {0.2 * std::sin(0.1 * tick + i), 0.2 * std::cos(0.13 * tick + i), 0},
+                        Vec3::Zero());
+        world.step(kStep);
+        out.ended += world.solve_stats().ended ? 1 : 0;
+        if (tick < ticks / 2) continue;  // the bodies fall into the pit
+        for (const contact::Contact& contact : world.contacts())
+            out.deepest = std::max(out.deepest, -contact.gap);
+    }
+    for (const BodyState& state : world.states()) out.sum += state.X_WB.p + state.v_WB;
+    return out;
+}
+
+TEST(Islands, BodiesOfAHeapStayOutOfEachOtherThoughContactsAreCarriedAlong) {
+    const Stirred heap = stir(45, 1200);
+    EXPECT_GT(heap.ended, 400);
+    EXPECT_GT(heap.deepest, 0);
+    EXPECT_LT(heap.deepest, 2e-4);
+    EXPECT_EQ(stir(45, 1200).sum, heap.sum);
 }
 
 TEST(Islands, WorkIsBoundedOnlyWhereAHandWaits) {
