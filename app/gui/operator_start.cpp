@@ -104,22 +104,18 @@ void OperatorWindow::start_checked() {
 }
 
 void OperatorWindow::start_trials() {
-    const std::string id = session_->participant().toStdString();
-    if (id != participant_.id) participant_ = {id, "", "", ""};
-    auto* dialog =
-        new ParticipantDialog(participant_, task::needs_number(control_.plan()->task->task), this);
+    const session::Plan& plan = *control_.plan();
+    auto* dialog = new ParticipantDialog(
+        KnownPeople(control_.out().toStdString(), plan.title, control_.file().toStdString()),
+        task::needs_number(plan.task->task), this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    connect(dialog, &QDialog::accepted, this, [this, dialog] {
-        participant_ = dialog->participant();
-        session_->set_participant(QString::fromStdString(participant_.id));
-        begin_or_go_on(participant_);
-    });
+    connect(dialog, &QDialog::accepted, this,
+            [this, dialog] { begin_or_go_on(dialog->participant()); });
     dialog->open();
 }
 
 void OperatorWindow::begin_or_go_on(const recording::Participant& participant) {
     if (!control_.plan() || control_.runner().running()) return;
-    if (participant.id.empty()) return begin(participant);
     const auto sessions = session::find_unfinished(control_.out().toStdString(),
                                                    control_.plan()->title, participant.id);
     if (sessions.empty()) return begin(participant);

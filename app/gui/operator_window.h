@@ -146,8 +146,7 @@ class OperatorWindow : public QMainWindow {
     QAction* follow_action_ = nullptr;
     QMenu* camera_menu_ = nullptr;
     QElapsedTimer since_refresh_;
-    recording::Participant participant_;  ///< the person who did the most recent trials
-    std::optional<MouseHand> mouse_;      ///< mouse-controlled hand of the running session
+    std::optional<MouseHand> mouse_;  ///< mouse-controlled hand of the running session
     bool closing_ = false;
     bool ended_ = false;  ///< whether a signal asked the program to end
     bool lost_ = false;   ///< whether another program destroyed the window

@@ -1,7 +1,6 @@
 #include "session_panel.h"
 
 #include <QFileInfo>
-#include <QFormLayout>
 #include <QRegularExpressionValidator>
 #include <QVBoxLayout>
 
@@ -15,6 +14,7 @@ void set_up_identifier(QLineEdit& field) {
 
 SessionPanel::SessionPanel(SessionControl& control)
     : control_(control),
+      form_(new QFormLayout),
       file_(new QLabel(tr("none"))),
       rig_(new QComboBox),
       participant_(new QLineEdit),
@@ -42,23 +42,22 @@ SessionPanel::SessionPanel(SessionControl& control)
     stop_->setToolTip(tr("F7: ends the session properly"));
     progress_->setTextVisible(true);
 
-    auto* form = new QFormLayout;
     auto* file_row = new QHBoxLayout;
     file_row->addWidget(file_, 1);
     file_row->addWidget(open_);
-    form->addRow(tr("File"), file_row);
-    form->addRow(tr("&Rig"), rig_);
-    form->addRow(tr("S&ubject"), participant_);
+    form_->addRow(tr("File"), file_row);
+    form_->addRow(tr("&Rig"), rig_);
+    form_->addRow(tr("Partici&pant"), participant_);
     auto* hand_row = new QHBoxLayout;
     hand_row->addWidget(hand_, 1);
     hand_row->addWidget(pace_, 1);
     auto* hand_label = new QLabel(tr("&Hand moved by"));
     hand_label->setBuddy(hand_);
-    form->addRow(hand_label, hand_row);
+    form_->addRow(hand_label, hand_row);
     auto* buttons = new QHBoxLayout;
     for (QPushButton* button : {start_, pause_, skip_, stop_}) buttons->addWidget(button);
     auto* layout = new QVBoxLayout(this);
-    layout->addLayout(form);
+    layout->addLayout(form_);
     layout->addLayout(buttons);
     layout->addWidget(trial_);
     layout->addWidget(progress_);
@@ -135,6 +134,8 @@ void SessionPanel::show_state() {
     skip_->setEnabled(control_.may(Act::skip));
     skip_->setVisible(trials);
     trial_->setVisible(trials);
+    // for trials by anyone else, the window asks who does them
+    form_->setRowVisible(participant_, !trials || hand() == Hand::person);
     for (QWidget* choice : std::initializer_list<QWidget*>{open_, rig_, participant_, hand_})
         choice->setEnabled(idle);
     if (idle) {

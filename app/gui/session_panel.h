@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QComboBox>
+#include <QFormLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QProgressBar>
@@ -24,8 +25,9 @@ class SessionPanel : public QWidget {
     /// Sets the available rig files; the first choice is always the rig named in the open file.
     void set_rigs(const QStringList& files);
     QString rig() const { return rig_->currentData().toString(); }
+    /// The participant of a scene, or the simulated person; before trials by anyone else, the
+    /// window asks.
     QString participant() const { return participant_->text().trimmed(); }
-    void set_participant(const QString& id) { participant_->setText(id); }
     enum class Hand { mouse, script, person };
     Hand hand() const { return static_cast<Hand>(hand_->currentIndex()); }
     /// Ratio of session time to wall time; 0 for as fast as the machine allows. It is 1 if the
@@ -47,6 +49,7 @@ class SessionPanel : public QWidget {
     void set_trial(const QString& text);
 
     SessionControl& control_;
+    QFormLayout* form_;
     QLabel* file_;
     QComboBox* rig_;
     QLineEdit* participant_;

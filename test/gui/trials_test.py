@@ -112,6 +112,15 @@ class Trials(Participants):
   blocks: [{ name: baseline, conditions: [right far up, left far up, right near up], order: sequential }]
 """
         question = lambda: self.xdotool("search", "--onlyvisible", "--name", "^Continue")
+
+        def again():
+            """The same person once more, which is asked: Enter leads to the question, Space answers it."""
+            self.ask()
+            self.xdotool("type", "--delay", "50", "S07")
+            self.key("Return", "space")
+            self.screenshot("the-same-person")
+            self.answered("Return")
+
         self.open(self.experiment("visuomotor-rotation", short))
         self.start()
         time.sleep(1)
@@ -122,20 +131,14 @@ class Trials(Participants):
             pass
         first = self.recording()
         self.settle()
-        self.key("F5")
-        self.wait("the dialog", self.dialog)
-        time.sleep(0.5)
-        self.answered("Return")
+        again()
         self.focus(question)
         self.screenshot("go-on")
         self.key("Escape")
         time.sleep(1)
         self.assertEqual(self.recording(), first)  # nothing began
         self.xdotool("windowfocus", self.name)
-        self.key("F5")
-        self.wait("the dialog", self.dialog)
-        time.sleep(0.5)
-        self.answered("Return")
+        again()
         self.focus(question)
         self.key("Return")
         self.wait("the session", lambda: self.recording() != first)

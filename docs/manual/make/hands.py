@@ -75,6 +75,10 @@ def lift(display, window, file):
         asked = wait("the question who does the trials", lambda: display.windows("^Who does the trials"))
         display.do("windowfocus", asked[-1], "type", "--delay", "50", "S07")
         display.do("key", "Return")
+        time.sleep(1)
+        if display.windows("^Who does the trials"):  # asks whether this is the same person as before
+            display.do("key", "space")
+            display.do("key", "Return")
         wait("the answer", lambda: not display.windows("^Who does the trials"))
         display.do("windowfocus", window)  # there is no window manager that would
     wait("the session", lambda: len(glob.glob("sessions/*/raw.log")) > before)
