@@ -16,7 +16,7 @@ struct DeviceColumn {
 };
 
 QString words(uint32_t status) {
-    return status == 0 ? QObject::tr("well") : QString::fromStdString(dihaptic::words(status));
+    return status == 0 ? QObject::tr("OK") : QString::fromStdString(dihaptic::words(status));
 }
 
 }  // namespace
@@ -24,7 +24,7 @@ QString words(uint32_t status) {
 DevicePanel::DevicePanel(QWidget* parent)
     : QWidget(parent), table_(new QTableWidget(0, DeviceColumn::count)), loop_(new QLabel) {
     table_->setHorizontalHeaderLabels(
-        {tr("Finger"), tr("Device"), tr("Force / limit"), "", tr("Status")});
+        {tr("Finger"), tr("Device"), tr("Force / limit"), tr("Load"), tr("Status")});
     table_->verticalHeader()->hide();
     table_->horizontalHeader()->setStretchLastSection(true);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -45,7 +45,7 @@ void DevicePanel::set_devices(const std::vector<Device>& devices) {
         const Device& device = devices[static_cast<size_t>(i)];
         table_->setItem(i, DeviceColumn::finger, new QTableWidgetItem(device.finger));
         table_->setItem(i, DeviceColumn::model, new QTableWidgetItem(device.model));
-        table_->setItem(i, DeviceColumn::status, new QTableWidgetItem(tr("at rest")));
+        table_->setItem(i, DeviceColumn::status, new QTableWidgetItem(tr("idle")));
         auto* bar = new QProgressBar;
         bar->setRange(0, 1000);
         bar->setTextVisible(false);  // the text would be cut by the end of the bar

@@ -80,9 +80,9 @@ void OperatorWindow::make_session_menu() {
         enable(action, act);
     };
     add(tr("&Start"), Qt::Key_F5, Act::start, this, &OperatorWindow::start);
-    add(tr("&Pause, or continue"), Qt::Key_F6, Act::pause, &control_,
+    add(tr("&Pause, or resume"), Qt::Key_F6, Act::pause, &control_,
         [this] { control_.pause(!control_.runner().paused()); });
-    add(tr("S&top"), Qt::Key_F7, Act::stop, &control_, &SessionControl::stop);
+    add(tr("&End the session"), Qt::Key_F7, Act::stop, &control_, &SessionControl::stop);
     add(tr("S&kip the trial"), Qt::Key_F8, Act::skip, &control_, &SessionControl::skip);
     add(tr("&Hand back to its start"), Qt::Key_F4, Act::move, this, [this] {
         if (!mouse_) return;

@@ -158,10 +158,13 @@ void OperatorWindow::show_start(const session::Plan& plan) {
         mouse_.emplace(plan.mouse->goal(), MouseHand::grip_of(least_peak(plan)));
         const bool squeezes = plan.scene.fingers.size() > 1;
         scene_->set_hand(&*mouse_, squeezes);
-        scene_->set_help(squeezes ? mouse_help() : finger_help());
     }
     turn_workspaces();
     scene_->setFocus();
+}
+
+QString OperatorWindow::hand_help() const {
+    return control_.runner().plan().scene.fingers.size() > 1 ? mouse_help() : finger_help();
 }
 
 QString OperatorWindow::rig_file() const {

@@ -15,6 +15,7 @@
 #include "device_panel.h"
 #include "participant_mirror.h"
 #include "plots_panel.h"
+#include "session_sign.h"
 #include "trials_panel.h"
 #include "tuning_panel.h"
 
@@ -82,7 +83,11 @@ void OperatorWindow::connect_panels(PlotsPanel* plots, TrialsPanel* trials, Devi
     connect(&control_, &SessionControl::sampled, plots, &PlotsPanel::add);
     connect(&control_, &SessionControl::trial_ended, trials, &TrialsPanel::add);
     connect(&control_, &SessionControl::measured, trials, &TrialsPanel::set_figures);
-    connect(&control_, &SessionControl::framed, devices, &DevicePanel::show_frame);
+    connect(&control_, &SessionControl::framed, devices,
+            [this, devices](const frame::Frame& frame) {
+                // in a pause, the devices have nothing to say but that
+                if (control_.state() != SessionControl::State::paused) devices->show_frame(frame);
+            });
     connect(&control_, &SessionControl::rested, devices, &DevicePanel::rest);
     connect(&control_, &SessionControl::changed, tuning,
             [this, tuning] { tuning->setEnabled(control_.plan().has_value()); });
@@ -241,7 +246,6 @@ void OperatorWindow::show_end() {
     calibrator_->end_check();
     mouse_.reset();
     scene_->set_hand(nullptr, false);
-    scene_->set_help("");
     if (const auto& plan = control_.plan(); plan && plan->rig.patch)
         first_scene().set_patch(view::PatchLook{*plan->rig.patch});
     if (closing_) {
@@ -307,28 +311,16 @@ void OperatorWindow::follow_in_headset() {
         headset->follow(runner.plan().scene, runner.second());
 }
 
-QString OperatorWindow::banner() const {
-    const SessionRunner& runner = control_.runner();
-    const QString& complaint = control_.complaint();
-    if (runner.running() && !runner.paused()) return control_.words().message;
-    if (runner.running())
-        return complaint +
-               (!complaint.isEmpty()        ? "\n"
-                : runner.on_virtual_clock() ? tr("Time stands still.   Ctrl+.: one tick.") + "\n"
-                                            : tr("Force is off.") + "\n") +
-               tr("F6: continue.   F7: end the session.");
-    if (control_.loading()) return tr("Opening %1 ...").arg(control_.file());
-    if (!complaint.isEmpty()) return complaint;
-    if (!control_.recorded().isEmpty())
-        return tr("Recorded in %1").arg(control_.recorded()) + "\n" +
-               tr("Ctrl+R: its report.   F5: start again");
-    return control_.plan() ? tr("Press F5 to start") : tr("Open a scene or an experiment: Ctrl+O");
-}
-
 void OperatorWindow::show_state() {
     mark_picked();
-    scene_->set_banner(banner());
     const SessionControl::Words words = control_.words();
+    const SessionSign sign = sign_of(control_);
+    if (sign.sign == Sign::running) {
+        scene_->set_banner(words.message);
+    } else {
+        scene_->set_sign(sign.word, sign.text, sign.sign);
+    }
+    scene_->set_help(control_.may(SessionControl::Act::move) ? hand_help() : "");
     scene_->set_page(words.page, words.picture);
     show_question();
     const auto show_words = [&](auto& to) {

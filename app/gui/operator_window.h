@@ -121,8 +121,8 @@ class OperatorWindow : public QMainWindow {
     void move_hand(double h);
     void show_participant_window(bool shown);
     void follow_in_headset();
-    /// The text displayed over the scene: the next step or a fault.
-    QString banner() const;
+    /// The hint how the mouse moves the hand of the running session.
+    QString hand_help() const;
     /// Updates the window to the state and the texts of the session control.
     void show_state();
     void log(const QString& text, bool problem = false);

@@ -27,7 +27,8 @@ SceneWidget::SceneWidget(QWidget* parent)
     : QOpenGLWidget(parent),
       page_(new PageView(this)),
       questions_(new QuestionsView(this)),
-      banner_(new QLabel(this)),
+      banner_(new SignLabel(this)),
+      held_(new SignLabel(this)),
       help_(new QLabel(this)) {
     setAccessibleName(tr("Scene"));
     setFocusPolicy(Qt::StrongFocus);
@@ -39,10 +40,10 @@ SceneWidget::SceneWidget(QWidget* parent)
         presented_ = shown_.sequence;
         Q_EMIT presented(presented_);
     });
-    for (QLabel* label : {banner_, help_}) {
-        label->setAttribute(Qt::WA_TransparentForMouseEvents);
-        label->hide();
-    }
+    held_->set(tr("Hand held"), tr("It does not follow the mouse. H moves it again."),
+               Sign::paused);
+    help_->setAttribute(Qt::WA_TransparentForMouseEvents);
+    help_->hide();
     help_->setStyleSheet(
         "background: rgba(255, 255, 255, 190); color: #20242a; padding: 8px 12px; border-radius: "
         "6px;");
@@ -125,6 +126,7 @@ void SceneWidget::move_picked(const BodyWay& way) {
 void SceneWidget::set_staying(bool stays) {
     stays_ = stays;
     setCursor(hand_ == nullptr ? Qt::OpenHandCursor : stays ? Qt::ArrowCursor : Qt::CrossCursor);
+    show_help();
 }
 
 void SceneWidget::move_hand(const QPointF& pixels, bool in_depth) {
@@ -151,8 +153,13 @@ void SceneWidget::reset_camera() {
 }
 
 void SceneWidget::set_banner(const QString& text) {
-    if (banner_->text() == text) return;
-    banner_->setText(text);
+    if (!banner_->set("", text)) return;
+    show_banner();
+    place_labels();
+}
+
+void SceneWidget::set_sign(const QString& word, const QString& text, Sign sign) {
+    if (!banner_->set(word, text, sign)) return;
     show_banner();
     place_labels();
 }
@@ -164,12 +171,18 @@ void SceneWidget::ask(const std::optional<Asked>& asked) {
 
 /// Shows the banner, unless a form is shown, which contains all its texts itself.
 void SceneWidget::show_banner() {
-    banner_->setVisible(!banner_->text().isEmpty() && !questions_->shows_form());
+    banner_->setVisible(!banner_->is_empty() && !questions_->shows_form());
+}
+
+void SceneWidget::show_help() {
+    held_->setVisible(stays_ && !help_->text().isEmpty());
+    help_->setVisible(!stays_ && !help_->text().isEmpty());
 }
 
 void SceneWidget::set_help(const QString& text) {
+    if (help_->text() == text) return;
     help_->setText(text);
-    help_->setVisible(!text.isEmpty());
+    show_help();
     place_labels();
 }
 
@@ -188,7 +201,7 @@ void SceneWidget::set_display(const std::optional<display::Display>& display) {
         words->setAttribute(Qt::WA_TranslucentBackground);
     }
     QWidget* const parent = words ? words.get() : this;
-    for (QWidget* child : std::array<QWidget*, 4>{page_, questions_, banner_, help_}) {
+    for (QWidget* child : std::array<QWidget*, 5>{page_, questions_, banner_, held_, help_}) {
         const bool hidden = child->isHidden();
         child->setParent(parent);
         child->setVisible(!hidden);
@@ -216,13 +229,11 @@ void SceneWidget::place_labels() {
     page_->setGeometry({{0, 0}, room});
     questions_->place(room);
     // legible from a chair on a screen of any size
-    banner_->setStyleSheet(
-        QString("background: rgba(20, 24, 30, 200); color: white; padding: 12px 20px; "
-                "font-size: %1px; border-radius: 8px;")
-            .arg(std::max(20, height / 30)));
-    fit_label(*banner_, width - 40);
+    const int letter = std::max(20, height / 30);
+    for (SignLabel* label : {banner_, held_}) label->fit(letter, width - 40);
     fit_label(*help_, width - 24);
     banner_->move((width - banner_->width()) / 2, 24);
+    held_->move((width - held_->width()) / 2, height - held_->height() - 24);
     help_->move(12, height - help_->height() - 12);
 }
 

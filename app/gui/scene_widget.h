@@ -15,6 +15,7 @@
 #include "page_view.h"
 #include "questions_view.h"
 #include "servo/workspace_turn.h"
+#include "sign_label.h"
 #include "view/scene_view.h"
 
 namespace dihaptic::gui {
@@ -81,6 +82,10 @@ class SceneWidget : public QOpenGLWidget {
     const view::Shown& shown() const { return shown_; }
     /// Sets the large text over the picture; an empty text removes it.
     void set_banner(const QString& text);
+    /// Shows the sign of a session in place of that text.
+    void set_sign(const QString& word, const QString& text, Sign sign);
+    /// Sets the hint how the mouse moves the hand; an empty text removes it. While the hand is held
+    /// in place (H), that is shown instead.
     void set_help(const QString& text);
     /// Sets the page shown instead of the scene (page_view.h); if both arguments are empty, the
     /// scene is shown.
@@ -135,6 +140,7 @@ class SceneWidget : public QOpenGLWidget {
     void look(const QPointF& way, bool pan);
     void zoom(double notches);
     void show_banner();
+    void show_help();
     void place_labels();
     void make_view();
     void draw_scene();
@@ -176,7 +182,8 @@ class SceneWidget : public QOpenGLWidget {
     QPointF pressed_;  // position where a mouse button was pressed
     PageView* page_;
     QuestionsView* questions_;
-    QLabel* banner_;
+    SignLabel* banner_;
+    SignLabel* held_;
     QLabel* help_;
 };
 

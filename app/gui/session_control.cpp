@@ -38,7 +38,7 @@ SessionControl::SessionControl(QString out, double sync, std::atomic<bool>& stop
     // the signal comes from the loader's thread, so it may arrive after loading has ended
     connect(&loader_, &Loader::waits, this, [this](const QString& what, int seconds, int most) {
         if (loader_.loading())
-            Q_EMIT progressed({"", most > 0 ? static_cast<double>(seconds) / most : 0,
+            Q_EMIT progressed({"", "", most > 0 ? static_cast<double>(seconds) / most : 0,
                                tr("%1: %2 s of %3 s at most").arg(what).arg(seconds).arg(most)});
     });
     reload_.setSingleShot(true);
@@ -49,7 +49,7 @@ SessionControl::SessionControl(QString out, double sync, std::atomic<bool>& stop
     });
     connect(&reload_, &QTimer::timeout, this, &SessionControl::file_changed);
     connect(&runner_, &SessionRunner::ended, this, &SessionControl::end);
-    connect(&runner_, &SessionRunner::paused_at_once, this, [this] { pause(true); });
+    connect(&runner_, &SessionRunner::paused_at_once, this, &SessionControl::pause_for_escape);
     connect(&runner_, &SessionRunner::warned, this,
             [this](const QString& message) { log(message, true); });
     connect(&runner_, &SessionRunner::finishing_progressed, this,
@@ -251,6 +251,9 @@ void SessionControl::run(const Start& start, std::unique_ptr<devices::DeviceGrou
     options.clock = clock_of(*plan_, start.pace);
     // the scene shown is the resumed session's, not the file's
     changed_ = changed_ || !plan_->resumes.empty();
+    escaped_ = false;
+    pace_ = start.pace > 0 ? start.pace : 1;
+    since_pace_.invalidate();
     Q_EMIT prepared(*plan_, options);
     runner_.start(*plan_, options, start.pace, std::move(devices),
                   plan_->rig.headset ? HeadsetView::frames_from(frame_) : nullptr);
@@ -278,16 +281,27 @@ void SessionControl::pause(bool paused) {
     if (!may(Act::pause)) return;
     runner_.set_paused(paused);
     complaint_.clear();
-    log(!paused ? tr("continues")
+    escaped_ = false;
+    log(!paused ? tr("resumed")
         : runner_.on_virtual_clock()
-            ? tr("paused. F6 continues, Ctrl+. does one tick, F7 ends the session.")
-            : tr("paused: force is off. F6 continues, F7 ends the session."));
-    if (paused) Q_EMIT rested(tr("paused"));
+            ? tr("paused. F6 resumes, Ctrl+. does one tick, F7 ends the session.")
+            : tr("paused: force is off. F6 resumes, F7 ends the session."));
+    if (paused) Q_EMIT rested(tr("force off"));
+    Q_EMIT changed();
+}
+
+void SessionControl::pause_for_escape() {
+    if (!may(Act::pause)) return;
+    runner_.set_paused(true);
+    if (!std::exchange(escaped_, true))
+        log(tr("stopped by Escape: force is off. F6 resumes, F7 ends the session."), true);
+    Q_EMIT rested(tr("force off"));
     Q_EMIT changed();
 }
 
 void SessionControl::take_force_away(const QString& why) {
     if (!runner_.running() || runner_.paused()) return;
+    if (why.isEmpty()) return pause_for_escape();
     pause(true);
     complaint_ = why;
     Q_EMIT changed();
@@ -336,7 +350,20 @@ void SessionControl::show(const frame::Frame& frame) {
         page_ = frame.task.page;
         Q_EMIT changed();
     }
-    Q_EMIT progressed(progress_of(runner_.plan(), frame, runner_.done()));
+    follow_pace(seconds(frame.time));
+    Q_EMIT progressed(progress_of(runner_.plan(), frame, runner_.done(), pace_));
+}
+
+/// Measures how fast the session's time passes, once a second.
+void SessionControl::follow_pace(double now) {
+    if (runner_.paused()) return since_pace_.invalidate();
+    if (!since_pace_.isValid() || now < pace_from_) {
+        since_pace_.start();
+        pace_from_ = now;
+    } else if (since_pace_.elapsed() >= 1000) {
+        const double wall = static_cast<double>(since_pace_.restart()) * 1e-3;
+        pace_ = std::max(1e-3, (now - std::exchange(pace_from_, now)) / wall);
+    }
 }
 
 void SessionControl::end(const SessionEnd& end) {
@@ -348,7 +375,7 @@ void SessionControl::end(const SessionEnd& end) {
     figures_.finish();
     recorded_ = end.folder;
     if (!end.folder.isEmpty()) log(tr("recorded in %1").arg(end.folder));
-    Q_EMIT rested(tr("at rest"));
+    Q_EMIT rested(tr("idle"));
     Q_EMIT changed();
     Q_EMIT ended();
 }

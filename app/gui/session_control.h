@@ -2,6 +2,7 @@
 // follows the session to its end. The window and its panels subscribe to the signals.
 #pragma once
 
+#include <QElapsedTimer>
 #include <QFileSystemWatcher>
 #include <QObject>
 #include <QTimer>
@@ -64,6 +65,8 @@ class SessionControl : public QObject {
     const QString& recorded() const { return recorded_; }
     /// A fault of the file, or the reason why the session is paused; empty if there is none.
     const QString& complaint() const { return complaint_; }
+    /// Whether the session is paused because Escape was pressed.
+    bool escaped() const { return escaped_; }
     /// The texts that the running task shows.
     struct Words {
         QString message;  ///< texts over the scene
@@ -101,7 +104,8 @@ class SessionControl : public QObject {
     void stop();
     void skip();
     void pause(bool paused);
-    /// Pauses the session, if one is running. `why`: the reason, if the operator must be informed.
+    /// Pauses the session, if one is running. `why`: the reason, if the operator must be informed;
+    /// "" if Escape was pressed.
     void take_force_away(const QString& why = "");
     void set_pace(double pace);
     void turn_knobs(const frame::Knobs& knobs, const QString& what);
@@ -142,6 +146,8 @@ class SessionControl : public QObject {
     void take(const Opened& opened);
     void refuse(const QStringList& problems);
     void refuse_to_start();
+    void pause_for_escape();
+    void follow_pace(double now);
     void run(const Start& start, std::unique_ptr<devices::DeviceGroup> devices);
     void show(const frame::Frame& frame);
     void end(const SessionEnd& end);
@@ -165,6 +171,10 @@ class SessionControl : public QObject {
     bool text_is_wrong_ = false;  ///< whether the unsaved text has errors
     bool changed_ = false;
     bool cut_ = false;
+    bool escaped_ = false;
+    double pace_ = 1;           ///< ratio of session time to wall time, as measured
+    double pace_from_ = 0;      ///< session time at which since_pace_ was started [s]
+    QElapsedTimer since_pace_;  ///< invalid while time stands still
     QString recorded_;
     QString complaint_;
 };

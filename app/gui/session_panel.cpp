@@ -4,6 +4,9 @@
 #include <QRegularExpressionValidator>
 #include <QVBoxLayout>
 
+#include "icons.h"
+#include "session_sign.h"
+
 namespace dihaptic::gui {
 
 void set_up_identifier(QLineEdit& field) {
@@ -14,63 +17,77 @@ void set_up_identifier(QLineEdit& field) {
 
 SessionPanel::SessionPanel(SessionControl& control)
     : control_(control),
+      sign_(new SignLabel(this)),
       form_(new QFormLayout),
+      file_row_(new QHBoxLayout),
+      hand_row_(new QHBoxLayout),
       file_(new QLabel(tr("none"))),
       rig_(new QComboBox),
       participant_(new QLineEdit),
       hand_(new QComboBox),
       pace_(new QComboBox),
       open_(new QPushButton(tr("&Open ..."))),
-      start_(new QPushButton(tr("Start"))),
-      pause_(new QPushButton(tr("Pause"))),
-      skip_(new QPushButton(tr("Skip"))),
-      stop_(new QPushButton(tr("Stop"))),
+      start_(new QPushButton(icon(shapes::kPlay), tr("Start"))),
+      pause_(new QPushButton),
+      skip_(new QPushButton(icon(shapes::kSkip), tr("Skip"))),
+      stop_(new QPushButton(icon(shapes::kStop), "")),
       trial_(new QLabel),
+      names_(new QLabel),
       progress_(new QProgressBar) {
     file_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     rig_->addItem(tr("as in the file"), QString());
     rig_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     set_up_identifier(*participant_);
     set_up_hand();
-    pause_->setCheckable(true);
-    start_->setToolTip("F5");
-    pause_->setToolTip(tr("F6, or Escape: time stands still, and no force acts"));
-    skip_->setToolTip(tr("F8: this trial ends and is recorded as skipped; the next one starts"));
-    // with a fixed height and as wide as possible, so that nothing moves under the pointer
-    trial_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-    trial_->hide();
-    stop_->setToolTip(tr("F7: ends the session properly"));
+    // as wide as possible, so that nothing moves under the pointer
+    for (QLabel* label : {trial_, names_})
+        label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    trial_->setFont(sized(font(), type::kLarge, true));
+    names_->setFont(sized(font(), type::kHeading));
+    names_->setWordWrap(true);
     progress_->setTextVisible(true);
 
-    auto* file_row = new QHBoxLayout;
-    file_row->addWidget(file_, 1);
-    file_row->addWidget(open_);
-    form_->addRow(tr("File"), file_row);
+    file_row_->addWidget(file_, 1);
+    file_row_->addWidget(open_);
+    form_->addRow(tr("File"), file_row_);
     form_->addRow(tr("&Rig"), rig_);
     form_->addRow(tr("Partici&pant"), participant_);
-    auto* hand_row = new QHBoxLayout;
-    hand_row->addWidget(hand_, 1);
-    hand_row->addWidget(pace_, 1);
+    hand_row_->addWidget(hand_, 1);
+    hand_row_->addWidget(pace_, 1);
     auto* hand_label = new QLabel(tr("&Hand moved by"));
     hand_label->setBuddy(hand_);
-    form_->addRow(hand_label, hand_row);
-    auto* buttons = new QHBoxLayout;
-    for (QPushButton* button : {start_, pause_, skip_, stop_}) buttons->addWidget(button);
+    form_->addRow(hand_label, hand_row_);
     auto* layout = new QVBoxLayout(this);
-    layout->addLayout(form_);
-    layout->addLayout(buttons);
+    layout->setSpacing(space::kUsual);
+    sign_->show();
+    layout->addWidget(sign_);
     layout->addWidget(trial_);
+    layout->addWidget(names_);
     layout->addWidget(progress_);
+    layout->addLayout(form_);
+    make_buttons();
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
 
     connect(open_, &QPushButton::clicked, this, &SessionPanel::open_requested);
-    connect(start_, &QPushButton::clicked, this, &SessionPanel::start_requested);
-    connect(pause_, &QPushButton::clicked, &control_, &SessionControl::pause);
-    connect(skip_, &QPushButton::clicked, &control_, &SessionControl::skip);
-    connect(stop_, &QPushButton::clicked, &control_, &SessionControl::stop);
     connect(rig_, &QComboBox::activated, this, &SessionPanel::choice_changed);
     connect_control();
     show_state();
+}
+
+void SessionPanel::make_buttons() {
+    start_->setToolTip("F5");
+    pause_->setToolTip(tr("F6: time stands still, and no force acts"));
+    skip_->setToolTip(tr("F8: this trial ends and is recorded as skipped; the next one starts"));
+    stop_->setToolTip(tr("F7: ends the session properly"));
+    auto* buttons = new QHBoxLayout;
+    buttons->setSpacing(space::kTight);
+    for (QPushButton* button : {start_, pause_, skip_, stop_}) buttons->addWidget(button);
+    qobject_cast<QVBoxLayout*>(layout())->addLayout(buttons);
+    connect(start_, &QPushButton::clicked, this, &SessionPanel::start_requested);
+    connect(pause_, &QPushButton::clicked, &control_,
+            [this] { control_.pause(control_.state() != SessionControl::State::paused); });
+    connect(skip_, &QPushButton::clicked, &control_, &SessionControl::skip);
+    connect(stop_, &QPushButton::clicked, &control_, &SessionControl::stop);
 }
 
 void SessionPanel::connect_control() {
@@ -80,12 +97,12 @@ void SessionPanel::connect_control() {
         file_->setToolTip(control_.file());
     });
     connect(&control_, &SessionControl::progressed, this, [this](const SessionProgress& now) {
-        set_trial(now.trial);
+        set_trial(now.trial, now.names);
         set_progress(now.share, now.text);
     });
     connect(&control_, &SessionControl::finishing_progressed, this,
             [this](double share) { set_progress(share, tr("writing files: %p %")); });
-    connect(&control_, &SessionControl::ended, this, [this] { set_trial(""); });
+    connect(&control_, &SessionControl::ended, this, [this] { set_trial("", ""); });
 }
 
 /// Sets up the choice of what moves the simulated hands, and of the speed of simulated time.
@@ -120,22 +137,22 @@ double SessionPanel::pace() const {
 }
 
 void SessionPanel::show_state() {
-    using State = SessionControl::State;
     using Act = SessionControl::Act;
     const bool idle = control_.may(Act::open);
-    const bool checked = control_.may(Act::prepare);
     const bool opening = idle && control_.loading();
     const bool trials = control_.has_trials();
-    start_->setEnabled(checked);
-    pause_->setEnabled(control_.may(Act::pause));
-    pause_->setChecked(control_.state() == State::paused);
-    stop_->setEnabled(control_.may(Act::stop));
-    stop_->setText(opening ? tr("Cancel") : tr("Stop"));
-    skip_->setEnabled(control_.may(Act::skip));
-    skip_->setVisible(trials);
-    trial_->setVisible(trials);
+    show_sign();
+    const bool runs = control_.runner().running();
+    trial_->setVisible(trials && runs);
+    names_->setVisible(trials && runs);
+    progress_->setVisible(runs || control_.loading());
+    // what cannot be chosen now is not there, except for the pace of simulated time
+    form_->setRowVisible(file_row_, !runs);
+    form_->setRowVisible(rig_, !runs);
+    form_->setRowVisible(hand_row_, !runs || control_.runner().on_virtual_clock());
+    pace_->setVisible(hand() != Hand::mouse && !hand_->isHidden());
     // for trials by anyone else, the window asks who does them
-    form_->setRowVisible(participant_, !trials || hand() == Hand::person);
+    form_->setRowVisible(participant_, !runs && (!trials || hand() == Hand::person));
     for (QWidget* choice : std::initializer_list<QWidget*>{open_, rig_, participant_, hand_})
         choice->setEnabled(idle);
     if (idle) {
@@ -143,8 +160,30 @@ void SessionPanel::show_state() {
         // even after the bar has an end again
         progress_->setRange(0, 1);
         progress_->setValue(0);
-        progress_->setFormat(opening ? tr("opening") : checked ? tr("ready") : "");
+        progress_->setFormat(opening ? tr("opening") : "");
     }
+}
+
+/// Shows the sign of the session, and the buttons that do something now.
+void SessionPanel::show_sign() {
+    using State = SessionControl::State;
+    using Act = SessionControl::Act;
+    const State state = control_.state();
+    const SessionSign sign = sign_of(control_);
+    if (sign_->set("", sign.word, sign.sign))
+        sign_->set_letter(qRound(type::kLarge * fontMetrics().ascent()));
+    start_->setEnabled(control_.may(Act::prepare));
+    pause_->setText(word_for_pause(state));
+    pause_->setIcon(icon(state == State::paused ? shapes::kPlay : shapes::kPause));
+    pause_->setEnabled(control_.may(Act::pause));
+    stop_->setText(word_for_stop(state));
+    stop_->setEnabled(control_.may(Act::stop));
+    skip_->setEnabled(control_.may(Act::skip));
+    const bool runs = control_.runner().running();
+    start_->setVisible(!runs);
+    pause_->setVisible(runs);
+    skip_->setVisible(runs && control_.has_trials());
+    stop_->setVisible(runs || control_.may(Act::stop));
 }
 
 void SessionPanel::set_progress(double share, const QString& text) {
@@ -153,9 +192,11 @@ void SessionPanel::set_progress(double share, const QString& text) {
     progress_->setFormat(text);
 }
 
-void SessionPanel::set_trial(const QString& text) {
-    trial_->setText(text);
-    trial_->setToolTip(text);
+void SessionPanel::set_trial(const QString& number, const QString& names) {
+    trial_->setText(number);
+    if (names_->text() == names) return;
+    names_->setText(names);
+    names_->setFixedHeight(names_->heightForWidth(std::max(1, names_->width())));
 }
 
 }  // namespace dihaptic::gui

@@ -2,6 +2,7 @@
 // progress.
 #pragma once
 
+#include <QBoxLayout>
 #include <QComboBox>
 #include <QFormLayout>
 #include <QLabel>
@@ -10,6 +11,7 @@
 #include <QPushButton>
 
 #include "session_control.h"
+#include "sign_label.h"
 
 namespace dihaptic::gui {
 
@@ -44,12 +46,17 @@ class SessionPanel : public QWidget {
     void set_up_hand();
     void connect_control();
     void show_state();
+    void show_sign();
     void set_progress(double share, const QString& text);
-    /// Shows the running trial; an empty `text` if there is none.
-    void set_trial(const QString& text);
+    /// Shows the running trial; empty texts if there is none.
+    void set_trial(const QString& number, const QString& names);
+    void make_buttons();
 
     SessionControl& control_;
+    SignLabel* sign_;
     QFormLayout* form_;
+    QHBoxLayout* file_row_;
+    QHBoxLayout* hand_row_;
     QLabel* file_;
     QComboBox* rig_;
     QLineEdit* participant_;
@@ -61,6 +68,7 @@ class SessionPanel : public QWidget {
     QPushButton* skip_;
     QPushButton* stop_;
     QLabel* trial_;
+    QLabel* names_;
     QProgressBar* progress_;
 };
 

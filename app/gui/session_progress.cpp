@@ -3,21 +3,28 @@
 #include <QObject>
 #include <QStringList>
 #include <algorithm>
+#include <cmath>
 
 namespace dihaptic::gui {
 namespace {
 
+/// A duration that has been measured.
 QString duration(double seconds) {
-    if (seconds < 60) return QString("%1 s").arg(seconds, 0, 'f', 1);
     const int whole = static_cast<int>(seconds);
-    return QObject::tr("%1 min %2 s").arg(whole / 60).arg(whole % 60);
+    return whole < 60 ? QObject::tr("%1 s").arg(whole)
+                      : QObject::tr("%1 min %2 s").arg(whole / 60).arg(whole % 60);
 }
 
-QString describe_trial(const task::TaskPlan& plan, const frame::Frame& frame) {
+QString number_of_trial(const task::TaskPlan& plan, const frame::Frame& frame) {
+    const auto trials = static_cast<int>(plan.trials.size());
+    return QObject::tr("Trial %1 of %2").arg(std::clamp(frame.trial, 1, trials)).arg(trials);
+}
+
+QString names_of_trial(const task::TaskPlan& plan, const frame::Frame& frame) {
     const auto trials = static_cast<int>(plan.trials.size());
     const int n = std::clamp(frame.trial, 1, trials);
     const task::Trial& trial = plan.trials[static_cast<size_t>(n - 1)];
-    QStringList what{QObject::tr("Trial %1 of %2").arg(n).arg(trials)};
+    QStringList what;
     const auto name = [&](const auto& list, int which) {
         if (static_cast<size_t>(which) < list.size())
             what += QString::fromStdString(list[static_cast<size_t>(which)].name);
@@ -31,22 +38,37 @@ QString describe_trial(const task::TaskPlan& plan, const frame::Frame& frame) {
 
 }  // namespace
 
-SessionProgress progress_of(const session::Plan& plan, const frame::Frame& frame, double done) {
+QString roughly(double seconds) {
+    const auto to = [](double value, int step) {
+        return std::max(1, static_cast<int>(std::lround(value / step))) * step;
+    };
+    const double minutes = seconds / 60;
+    if (seconds < 7.5) return QObject::tr("a few seconds");
+    if (seconds < 57.5) return QObject::tr("%1 s").arg(to(seconds, 5));
+    if (minutes < 12.5) return QObject::tr("%1 min").arg(to(minutes, 1));
+    const int rounded = to(minutes, 5);
+    if (rounded < 60) return QObject::tr("%1 min").arg(rounded);
+    return rounded % 60 == 0 ? QObject::tr("%1 h").arg(rounded / 60)
+                             : QObject::tr("%1 h %2 min").arg(rounded / 60).arg(rounded % 60);
+}
+
+SessionProgress progress_of(const session::Plan& plan, const frame::Frame& frame, double done,
+                            double pace) {
     const double now = seconds(frame.time);
     if (plan.task) {
         // assumes that the remaining trials will take as long as the completed ones
         const QString left =
-            done > 0 ? QObject::tr("about %1 left").arg(duration(now * (1 - done) / done))
+            done > 0 ? QObject::tr("about %1 left").arg(roughly(now * (1 - done) / done / pace))
                      : duration(now);
-        return {describe_trial(*plan.task, frame), done, left};
+        return {number_of_trial(*plan.task, frame), names_of_trial(*plan.task, frame), done, left};
     }
-    if (plan.open_ended()) return {"", 0, duration(now)};
+    if (plan.open_ended()) return {"", "", 0, duration(now)};
     const auto& phases = plan.driver->phases();
     const double end = plan.driver->duration();
     const bool has_phase = static_cast<size_t>(frame.phase) < phases.size();
     const std::string phase = has_phase ? phases[static_cast<size_t>(frame.phase)].name : "";
-    return {"", now / end,
-            QObject::tr("%1: %2 s left").arg(phase.c_str()).arg(end - now, 0, 'f', 1)};
+    return {"", "", now / end,
+            QObject::tr("%1: %2 left").arg(phase.c_str(), duration((end - now) / pace))};
 }
 
 }  // namespace dihaptic::gui

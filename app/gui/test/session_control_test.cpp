@@ -9,6 +9,7 @@
 #include <map>
 
 #include "answer_until.h"
+#include "session_sign.h"
 #include "testing/files.h"
 
 namespace dihaptic::gui {
@@ -148,6 +149,8 @@ TEST_F(SessionControlTest, ASessionStartsPausesAndEnds) {
     EXPECT_EQ(control_.state(), State::paused);
     EXPECT_TRUE(allows({Act::pause, Act::stop, Act::step}));
     EXPECT_EQ(control_.complaint(), "a reason");
+    EXPECT_EQ(sign_of(control_).sign, Sign::fault);
+    EXPECT_TRUE(sign_of(control_).text.contains("a reason"));
     control_.pause(false);
     EXPECT_EQ(control_.state(), State::running);
     EXPECT_TRUE(control_.complaint().isEmpty());
@@ -167,6 +170,42 @@ TEST_F(SessionControlTest, AMouseMovesTheHandInRealTime) {
     EXPECT_TRUE(allows({Act::pause, Act::stop, Act::move, Act::force_off}));
     control_.pause(true);
     EXPECT_TRUE(allows({Act::pause, Act::stop}));  // single ticks are not possible in real time
+}
+
+TEST_F(SessionControlTest, EachStateHasASignOfItsOwn) {
+    std::map<QString, Sign> seen;  // by word
+    const auto see = [&](Sign expected) {
+        const SessionSign now = sign_of(control_);
+        EXPECT_EQ(now.sign, expected) << now.word.toStdString();
+        EXPECT_FALSE(now.word.isEmpty());
+        EXPECT_FALSE(now.text.isEmpty()) << now.word.toStdString();
+        EXPECT_TRUE(seen.emplace(now.word, now.sign).second) << now.word.toStdString();
+    };
+    see(Sign::idle);
+    open("scenes/block-on-table.yaml");
+    see(Sign::busy);
+    ASSERT_TRUE(comes_to(State::checked));
+    see(Sign::idle);
+    run(true);
+    see(Sign::running);
+    EXPECT_EQ(word_for_pause(control_.state()), "Pause");
+    EXPECT_EQ(word_for_stop(control_.state()), "End");
+    control_.pause(true);
+    see(Sign::paused);
+    EXPECT_EQ(word_for_pause(control_.state()), "Resume");
+    control_.pause(false);
+    control_.take_force_away();
+    see(Sign::stopped);
+    EXPECT_TRUE(logged("stopped by Escape"));
+    control_.pause(false);
+    control_.take_force_away("The headset has stopped showing.");
+    see(Sign::fault);
+    control_.stop();
+    ASSERT_TRUE(answer_until([&] { return ended_ == 1; }));
+    see(Sign::idle);
+    open("scenes/nowhere.yaml");
+    ASSERT_TRUE(answer_until([&] { return !control_.loading(); }));
+    see(Sign::fault);
 }
 
 TEST_F(SessionControlTest, ASessionThatIsAboutToStartCanBeDropped) {

@@ -23,14 +23,15 @@ TEST(SessionProgress, OfAScriptIsItsPhaseAndWhatIsLeft) {
     const session::Plan plan = plan_of("experiments/lift-block.yaml");
     frame::Frame frame = at(plan.driver->duration() - 3);
     frame.phase = 0;
-    const SessionProgress now = progress_of(plan, frame, 0);
+    const SessionProgress now = progress_of(plan, frame, 0, 1);
     EXPECT_EQ(now.trial, "");
     EXPECT_NEAR(now.share, 1 - 3 / plan.driver->duration(), 1e-9);
-    EXPECT_EQ(now.text.toStdString(), plan.driver->phases()[0].name + ": 3.0 s left");
+    EXPECT_EQ(now.text.toStdString(), plan.driver->phases()[0].name + ": 3 s left");
 }
 
 TEST(SessionProgress, ByAHandThatNobodyPlannedIsTheTime) {
-    const SessionProgress now = progress_of(plan_of("scenes/block-on-table.yaml", true), at(75), 0);
+    const SessionProgress now =
+        progress_of(plan_of("scenes/block-on-table.yaml", true), at(75), 0, 1);
     EXPECT_EQ(now.share, 0);
     EXPECT_EQ(now.text, "1 min 15 s");
 }
@@ -38,14 +39,26 @@ TEST(SessionProgress, ByAHandThatNobodyPlannedIsTheTime) {
 TEST(SessionProgress, OfTrialsIsWhichAndHowLongTheRestTakes) {
     const session::Plan plan = plan_of("experiments/visuomotor-rotation.yaml");
     frame::Frame frame = at(100);
-    EXPECT_EQ(progress_of(plan, frame, 0).text, "1 min 40 s");
+    EXPECT_EQ(progress_of(plan, frame, 0, 1).text, "1 min 40 s");
     frame.trial = 3;
     frame.task.attempt = 2;
-    const SessionProgress now = progress_of(plan, frame, 0.25);
-    EXPECT_TRUE(now.trial.startsWith("Trial 3 of 504 \u00b7 ")) << now.trial.toStdString();
-    EXPECT_TRUE(now.trial.endsWith(" \u00b7 attempt 2")) << now.trial.toStdString();
+    const SessionProgress now = progress_of(plan, frame, 0.25, 1);
+    EXPECT_EQ(now.trial, "Trial 3 of 504");
+    EXPECT_TRUE(now.names.endsWith(" \u00b7 attempt 2")) << now.names.toStdString();
     EXPECT_EQ(now.share, 0.25);
-    EXPECT_EQ(now.text, "about 5 min 0 s left");
+    EXPECT_EQ(now.text, "about 5 min left");
+    EXPECT_EQ(progress_of(plan, frame, 0.25, 10).text, "about 30 s left");
+}
+
+TEST(SessionProgress, RoundsWhatIsEstimated) {
+    EXPECT_EQ(roughly(3), "a few seconds");
+    EXPECT_EQ(roughly(32.7), "35 s");
+    EXPECT_EQ(roughly(58), "1 min");
+    EXPECT_EQ(roughly(61), "1 min");
+    EXPECT_EQ(roughly(580), "10 min");
+    EXPECT_EQ(roughly(23 * 60), "25 min");
+    EXPECT_EQ(roughly(60 * 60), "1 h");
+    EXPECT_EQ(roughly(103 * 60), "1 h 45 min");
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+// Measures contrasts as WCAG 2.1 defines them, in both themes.
+#include "theme.h"
+
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QPalette>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace dihaptic::gui {
+namespace {
+
+constexpr double kText = 4.5;   // AA, for text
+constexpr double kShape = 3.0;  // AA, for shapes and large text
+
+double luminance(const QColor& colour) {
+    const auto linear = [](double x) {
+        return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+    };
+    return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) +
+           0.0722 * linear(colour.blueF());
+}
+
+double contrast(const QColor& a, const QColor& b) {
+    const auto [dark, light] = std::minmax({luminance(a), luminance(b)});
+    return (light + 0.05) / (dark + 0.05);
+}
+
+class ThemeTest : public ::testing::TestWithParam<bool> {
+  protected:
+    ThemeTest() { set_dark(GetParam()); }
+    static QColor colour(QPalette::ColorRole role, QPalette::ColorGroup group = QPalette::Active) {
+        return QApplication::palette().color(group, role);
+    }
+
+    int count_ = 1;
+    char name_[5] = "test";
+    char* names_[2] = {name_, nullptr};
+    const bool offscreen_ = qputenv("QT_QPA_PLATFORM", "offscreen");
+    QApplication application_{count_, names_};
+};
+
+TEST_P(ThemeTest, TextsCanBeRead) {
+    for (const auto& [ink, paper] : {std::pair{QPalette::WindowText, QPalette::Window},
+                                     {QPalette::Text, QPalette::Base},
+                                     {QPalette::ButtonText, QPalette::Button},
+                                     {QPalette::HighlightedText, QPalette::Highlight},
+                                     {QPalette::PlaceholderText, QPalette::Base},
+                                     {QPalette::ToolTipText, QPalette::ToolTipBase},
+                                     {QPalette::Link, QPalette::Base}}) {
+        EXPECT_GE(contrast(colour(ink), colour(paper)), kText) << ink << " on " << paper;
+    }
+}
+
+TEST_P(ThemeTest, SignsCanBeReadAndToldApart) {
+    std::set<QString> icons;
+    for (int i = 0; i < kSigns; ++i) {
+        const SignLook look = look_of(static_cast<Sign>(i));
+        EXPECT_GE(contrast(look.ink, look.fill), kText) << i;
+        EXPECT_TRUE(icons.insert(QString::fromStdString(std::string(look.icon))).second) << i;
+    }
+    EXPECT_GE(contrast(look_of(Sign::paused).fill, look_of(Sign::stopped).fill), kShape);
+}
+
+INSTANTIATE_TEST_SUITE_P(InBothThemes, ThemeTest, ::testing::Bool());
+
+}  // namespace
+}  // namespace dihaptic::gui
