@@ -80,8 +80,37 @@ session::Request OperatorWindow::request() const {
 
 void OperatorWindow::show_start_page() {
     if (!control_.may(SessionControl::Act::open)) return;
+    if (modes_->mode() != Mode::prepare) modes_->set(Mode::prepare);
+    modes_->set_file(false);
+    show_shelves();
+}
+
+void OperatorWindow::show_shelves() {
     start_page_->fill();
     centre_->setCurrentWidget(start_page_);
+}
+
+void OperatorWindow::show_mode(Mode mode) {
+    if (mode == Mode::look) return look_at_sessions();
+    const bool has_file = !control_.file().isEmpty();
+    modes_->set_file(has_file);
+    if (!has_file) return show_shelves();
+    start_page_->rest();
+    centre_->setCurrentWidget(scene_);
+}
+
+void OperatorWindow::look_at_sessions() {
+    auto* list = new SessionsDialog(control_.out());
+    list->setWindowFlags(Qt::Widget);
+    connect(list, &SessionsDialog::chosen, this, &OperatorWindow::play_sessions);
+    // opening a session ends the list, as it would end a dialog
+    connect(list, &QDialog::finished, this, [this](int result) {
+        if (modes_->mode() != Mode::look) return;
+        if (result == QDialog::Accepted) return look_at_sessions();
+        modes_->set(Mode::prepare);
+    });
+    connect(modes_, &Modes::changed, list, &QObject::deleteLater);
+    centre_->setCurrentIndex(centre_->addWidget(list));
 }
 
 bool OperatorWindow::may_leave_text() {
@@ -105,8 +134,10 @@ void OperatorWindow::open(const QString& file) {
     if (!may_leave_text()) return;
     composer_->forget();
     start_page_->rest();
-    centre_->setCurrentWidget(scene_);
     control_.open(file);
+    modes_->set(Mode::prepare);
+    modes_->set_file(true);
+    centre_->setCurrentWidget(scene_);
     QStringList rigs;
     for (const QFileInfo& rig :
          QDir(QFileInfo(file).dir().filePath("../rigs")).entryInfoList({"*.yaml"}))

@@ -28,6 +28,7 @@ void OperatorWindow::make_file_menu() {
     QMenu* recent = file->addMenu(tr("Open &recent"));
     connect(recent, &QMenu::aboutToShow, this, [this, recent] { fill_recent(*recent); });
     file->addAction(tr("&Edit"), QKeySequence("Ctrl+E"), this, [this] {
+        if (modes_->mode() == Mode::look) modes_->set(Mode::prepare);
         compose_dock_->show();
         composer_->take_focus();
     });
@@ -111,6 +112,8 @@ void OperatorWindow::make_session_menu() {
 
 void OperatorWindow::make_view_menu() {
     QMenu* view = menuBar()->addMenu(tr("&View"));
+    menuBar()->setCornerWidget(modes_->make_buttons(*view));
+    view->addSeparator();
     camera_menu_ = view->addMenu(tr("C&amera"));
     view->addAction(tr("&Reset the camera"), QKeySequence(Qt::Key_Home), scene_,
                     &SceneWidget::reset_camera);
@@ -142,6 +145,7 @@ void OperatorWindow::make_view_menu() {
         set_dark(on);
         QSettings().setValue("dark", on);
     });
+    tuning_dock_->toggleViewAction()->setShortcut(QKeySequence("Ctrl+T"));
     QMenu* panels = view->addMenu(tr("Pa&nels"));
     for (QDockWidget* dock : findChildren<QDockWidget*>()) {
         panels->addAction(dock->toggleViewAction());
@@ -178,6 +182,7 @@ void OperatorWindow::restore() {
     if (!restoreGeometry(settings.value("geometry").toByteArray()))
         resize(QSize(1400, 900).boundedTo(screen()->availableSize()));
     restoreState(settings.value("docks").toByteArray());
+    modes_->restore();
 }
 
 void OperatorWindow::show_page_of_docs(const QString& name) {

@@ -67,13 +67,15 @@ void OperatorWindow::start() {
 }
 
 void OperatorWindow::show_checklist(bool before_start) {
-    const std::string today = QDate::currentDate().toString(Qt::ISODate).toStdString();
-    auto* list =
-        new Checklist(session::readiness(*control_.plan(), control_.out().toStdString(), today),
-                      before_start, this);
+    auto* list = new Checklist(findings(), before_start, this);
     connect(list, &Checklist::chosen, this, &OperatorWindow::remedy);
     if (before_start) connect(list, &QDialog::accepted, this, &OperatorWindow::start_checked);
     list->open();
+}
+
+std::vector<session::Finding> OperatorWindow::findings() const {
+    const std::string today = QDate::currentDate().toString(Qt::ISODate).toStdString();
+    return session::readiness(*control_.plan(), control_.out().toStdString(), today);
 }
 
 void OperatorWindow::remedy(session::Remedy remedy) {
@@ -149,6 +151,7 @@ void OperatorWindow::prepare(const session::Plan& plan, session::RunOptions& opt
                                                     [this] { return control_.runner().ending(); });
     }
     start_page_->rest();
+    modes_->set(Mode::run);
     centre_->setCurrentWidget(scene_);
 }
 

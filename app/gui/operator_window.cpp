@@ -41,6 +41,7 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
     : control_(std::move(out), sync, stop),
       participants_(*this),
       calibrator_(new Calibrator(this)),
+      modes_(new Modes(this)),
       centre_(new QStackedWidget),
       start_page_(new StartPage),
       scene_(new SceneWidget),
@@ -100,7 +101,9 @@ void OperatorWindow::make_docks() {
     auto* device_panel = new DevicePanel;
     auto* tuning_panel = new TuningPanel;
     auto* mirror = new ParticipantMirror;
+    auto* checks_view = new ChecksView;
     connect_panels(plots_panel, trials_panel, device_panel, tuning_panel);
+    connect_checks(checks_view);
     connect_mirror(mirror);
     // `name`: identifies the panel in saveState(), in any language; `entry`: text of its menu
     // entry, which is also the panel's title, without the mnemonic.
@@ -113,7 +116,6 @@ void OperatorWindow::make_docks() {
         addDockWidget(area, dock);
         return dock;
     };
-    add("Session", tr("&Session"), session_, Qt::RightDockWidgetArea);
     // the screen of a laptop is not high enough for a whole panel
     const auto scrolled = [](QWidget* widget) {
         auto* area = new QScrollArea;
@@ -122,24 +124,43 @@ void OperatorWindow::make_docks() {
         area->setFrameShape(QFrame::NoFrame);
         return area;
     };
-    QDockWidget* tuning_dock =
-        add("Tuning", tr("&Tuning"), scrolled(tuning_panel), Qt::RightDockWidgetArea);
-    QDockWidget* plots = add("Plots", tr("&Plots"), scrolled(plots_panel), Qt::RightDockWidgetArea);
-    QDockWidget* trials = add("Trials", tr("T&rials"), trials_panel, Qt::RightDockWidgetArea);
-    QDockWidget* seen = add("What the participant sees", tr("&What the participant sees"), mirror,
-                            Qt::RightDockWidgetArea);
-    seen->hide();
+    const auto right = Qt::RightDockWidgetArea, bottom = Qt::BottomDockWidgetArea;
+    const std::set<Mode> working{Mode::prepare, Mode::run};
+    modes_->add(add("Session", tr("&Session"), session_, right), working);
+    QDockWidget* checks = add("Checks", tr("&Checks"), scrolled(checks_view), right);
+    modes_->add(checks, {Mode::prepare});
+    tuning_dock_ = add("Tuning", tr("&Tuning"), scrolled(tuning_panel), right);
+    modes_->add_drawer(tuning_dock_);
+    QDockWidget* plots = add("Plots", tr("&Plots"), scrolled(plots_panel), right);
+    modes_->add(plots, {Mode::run});
+    QDockWidget* trials = add("Trials", tr("T&rials"), trials_panel, right);
+    modes_->add(trials, {Mode::run});
+    QDockWidget* seen =
+        add("What the participant sees", tr("&What the participant sees"), mirror, right);
+    modes_->add_drawer(seen);
+    QDockWidget* devices = add("Devices", tr("&Devices"), device_panel, bottom);
+    QDockWidget* log = add("Log", tr("&Log"), log_, bottom);
+    for (QDockWidget* dock : {devices, log}) modes_->add(dock, working);
+    compose_dock_ = add("File", tr("&File"), composer_, Qt::LeftDockWidgetArea);
+    modes_->add_drawer(compose_dock_);
+    setCorner(Qt::BottomRightCorner, right);  // the plots have the whole height
     tabifyDockWidget(plots, trials);
     tabifyDockWidget(trials, seen);
     plots->raise();
-    QDockWidget* devices = add("Devices", tr("&Devices"), device_panel, Qt::BottomDockWidgetArea);
-    QDockWidget* log = add("Log", tr("&Log"), log_, Qt::BottomDockWidgetArea);
-    compose_dock_ = add("File", tr("&File"), composer_, Qt::LeftDockWidgetArea);
-    compose_dock_->hide();
     resizeDocks({devices, log}, {148, 148}, Qt::Vertical);
-    resizeDocks({tuning_dock, plots}, {236, 240}, Qt::Vertical);  // shows the whole first dock
+    resizeDocks({devices, log}, {430, 530}, Qt::Horizontal);
     resizeDocks({plots}, {380}, Qt::Horizontal);
     resizeDocks({compose_dock_}, {480}, Qt::Horizontal);
+}
+
+/// Keeps the panel of checks up to date, in which nothing is measured that takes long.
+void OperatorWindow::connect_checks(ChecksView* checks) {
+    connect(checks, &ChecksView::chosen, this, &OperatorWindow::remedy);
+    const auto look = [this, checks] {
+        if (control_.plan()) checks->set(findings());
+    };
+    connect(&control_, &SessionControl::opened, checks, look);
+    connect(&control_, &SessionControl::ended, checks, look);
 }
 
 void OperatorWindow::connect_scene() {
@@ -206,6 +227,7 @@ void OperatorWindow::connect_session() {
     connect(&control_, &SessionControl::framed, this, &OperatorWindow::show_frame);
     connect(&control_, &SessionControl::changed, this, &OperatorWindow::show_state);
     connect(&control_, &SessionControl::ended, this, &OperatorWindow::show_end);
+    connect(modes_, &Modes::changed, this, &OperatorWindow::show_mode);
 }
 
 void OperatorWindow::keyPressEvent(QKeyEvent* event) {
@@ -352,6 +374,7 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
     QSettings settings;
     settings.setValue("geometry", saveGeometry());
     settings.setValue("docks", saveState());
+    modes_->store();
     participants_.close();
     event->accept();
     // windows with recorded sessions must not keep the program running

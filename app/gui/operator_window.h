@@ -13,6 +13,7 @@
 #include "checklist.h"
 #include "composer.h"
 #include "log_view.h"
+#include "modes.h"
 #include "participant_dialog.h"
 #include "participant_windows.h"
 #include "session_control.h"
@@ -57,6 +58,7 @@ class OperatorWindow : public QMainWindow {
 
   private:
     void make_docks();
+    void connect_checks(ChecksView* checks);
     void connect_panels(PlotsPanel* plots, TrialsPanel* trials, DevicePanel* devices,
                         TuningPanel* tuning);
     void connect_mirror(ParticipantMirror* mirror);
@@ -77,6 +79,11 @@ class OperatorWindow : public QMainWindow {
     void remember(const QString& file);
     void make_help_menu();
     void choose_session();
+    void show_shelves();
+    /// Shows what the mode has in the middle of the window.
+    void show_mode(Mode mode);
+    /// Lists the recorded sessions in the middle of the window.
+    void look_at_sessions();
     void play_sessions(const QStringList& folders);
     void reload();
     /// Shows where a clicked body is defined in the text.
@@ -94,6 +101,8 @@ class OperatorWindow : public QMainWindow {
     void start_checked();
     /// Shows the checklist. `before_start`: whether a session follows.
     void show_checklist(bool before_start);
+    /// What is to be checked before a session of the open file.
+    std::vector<session::Finding> findings() const;
     void remedy(session::Remedy remedy);
     void choose_folder();
     /// Opens a page of the documentation.
@@ -135,6 +144,7 @@ class OperatorWindow : public QMainWindow {
     SessionControl control_;
     ParticipantWindows participants_;
     Calibrator* calibrator_;
+    Modes* modes_;
     QStackedWidget* centre_;
     StartPage* start_page_;
     SceneWidget* scene_;
@@ -142,6 +152,7 @@ class OperatorWindow : public QMainWindow {
     Composer* composer_;
     LogView* log_;
     QDockWidget* compose_dock_ = nullptr;
+    QDockWidget* tuning_dock_ = nullptr;
     QAction* participant_action_ = nullptr;
     QAction* follow_action_ = nullptr;
     QMenu* camera_menu_ = nullptr;

@@ -76,6 +76,7 @@ class Force(Window):
         participant = self.wait("the participant's window",
                             lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic: participant$")).strip()
         self.xdotool("windowfocus", self.name)
+        self.key("ctrl+t")  # the drawer of Tuning
         self.start()
         self.pushed()
         self.assertEqual(self.felt.opened(), [1, 1])  # the session took over what the window had opened for it

@@ -85,6 +85,7 @@ class Fields(Window):
         self.environment |= {key: language[key] for key in ("LC_ALL", "LOCPATH")}
         self.open()
         self.start()
+        self.key("ctrl+t")  # the drawer of Tuning
         for typed, read in (("1.5", 1.5), ("1,3", 1.3)):
             self.key("alt+i", "ctrl+a")
             self.xdotool("type", typed)  # friction

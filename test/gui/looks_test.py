@@ -76,7 +76,7 @@ class Looks(Window):
 
     def test_shows_the_operator_what_the_participant_sees(self):
         self.open()
-        self.key("alt+v", "n", "Down", "Down", "Down", "Return")
+        self.key("alt+v", "n", "w")
         self.screenshot("no-participant")
         self.key("alt+v", "s")
         participant = self.wait("the participant's window",

@@ -52,6 +52,7 @@ class Mouse(Window):
         self.screenshot("opened")
         self.lift(40)
         self.screenshot("lifted")
+        self.key("ctrl+t")  # the drawer of Tuning
         self.key("alt+i", "ctrl+a")
         self.xdotool("type", "1.5")  # friction
         self.key("Return")
