@@ -8,6 +8,9 @@ class QWidget;
 
 namespace dihaptic::gui {
 
+/// The file in a session's folder that holds its note, which reports show.
+inline constexpr const char* kNoteFile = "note.txt";
+
 /// `before`: the existing note. Returns nullopt if the note stays unchanged.
 std::optional<QString> ask_for_note(const QString& session, const QString& before, QWidget* parent);
 

@@ -85,6 +85,10 @@ void OperatorWindow::make_session_menu() {
         [this] { control_.pause(!control_.runner().paused()); });
     add(tr("&End the session"), Qt::Key_F7, Act::stop, &control_, &SessionControl::stop);
     add(tr("S&kip the trial"), Qt::Key_F8, Act::skip, &control_, &SessionControl::skip);
+    add(tr("&Note on the trial"), Qt::Key_F3, Act::pause, this, [this] {
+        modes_->set(Mode::run);
+        session_->write_note();
+    });
     add(tr("&Hand back to its start"), Qt::Key_F4, Act::move, this, [this] {
         if (!mouse_) return;
         mouse_->go_back();

@@ -75,13 +75,15 @@ OperatorWindow::~OperatorWindow() = default;
 void OperatorWindow::connect_panels(PlotsPanel* plots, TrialsPanel* trials, DevicePanel* devices,
                                     TuningPanel* tuning) {
     connect(&control_, &SessionControl::opened, this, [=](const Opened& opened) {
-        plots->set_scene(opened.plan.scene);
+        plots->set_plan(opened.plan);
         devices->set_devices(opened.devices);
         tuning->set_knobs(frame::Knobs::of(opened.plan.settings));
     });
     connect(&control_, &SessionControl::started, trials,
             [trials](const session::Plan& plan) { trials->set_plan(plan.task); });
     connect(&control_, &SessionControl::sampled, plots, &PlotsPanel::add);
+    connect(&control_, &SessionControl::framed, plots, &PlotsPanel::show_frame);
+    connect(trials, &TrialsPanel::charted, plots, &PlotsPanel::set_trials);
     connect(&control_, &SessionControl::trial_ended, trials, &TrialsPanel::add);
     connect(&control_, &SessionControl::measured, trials, &TrialsPanel::set_figures);
     connect(&control_, &SessionControl::framed, devices,
@@ -219,6 +221,7 @@ void OperatorWindow::connect_session() {
         reload();
     });
     connect(session_, &SessionPanel::start_requested, this, &OperatorWindow::start);
+    connect(session_, &SessionPanel::note_written, scene_, [this] { scene_->setFocus(); });
     connect(&control_, &SessionControl::logged, this, &OperatorWindow::log);
     connect(&control_, &SessionControl::opened, this, &OperatorWindow::show_opened);
     connect(&control_, &SessionControl::start_due, this, &OperatorWindow::start);

@@ -1,11 +1,15 @@
 #include "session_control.h"
 
 #include <QFileInfo>
+#include <QTime>
 #include <algorithm>
 #include <utility>
 
+#include "base/regular_file.h"
+#include "base/text_file.h"
 #include "frame/shown_texts.h"
 #include "headset_view.h"
+#include "note_dialog.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -252,6 +256,7 @@ void SessionControl::run(const Start& start, std::unique_ptr<devices::DeviceGrou
     // the scene shown is the resumed session's, not the file's
     changed_ = changed_ || !plan_->resumes.empty();
     escaped_ = false;
+    running_.clear();
     pace_ = start.pace > 0 ? start.pace : 1;
     since_pace_.invalidate();
     Q_EMIT prepared(*plan_, options);
@@ -312,6 +317,26 @@ void SessionControl::set_pace(double pace) {
     if (runner_.running() && runner_.on_virtual_clock()) runner_.set_pace(pace);
 }
 
+void SessionControl::note(const QString& text) {
+    const QString said = text.simplified();
+    if (said.isEmpty() || running_.isEmpty() || !runner_.running()) return;
+    const frame::Frame& frame = runner_.frame();
+    const QString trial =
+        has_trials() && frame.trial > 0 ? tr(", trial %1").arg(frame.trial) : QString();
+    const QString line = QString("%1 (%2 s)%3: %4")
+                             .arg(QTime::currentTime().toString("HH:mm:ss"))
+                             .arg(seconds(frame.time), 0, 'f', 1)
+                             .arg(trial, said);
+    try {
+        const std::string file = (running_ + "/" + kNoteFile).toStdString();
+        const std::string before = is_there(file) ? read_text_file(file) : "";
+        write_file(before + line.toStdString() + "\n", file);
+        log(tr("note: %1").arg(line));
+    } catch (const Error& e) {
+        log(e.what(), true);
+    }
+}
+
 void SessionControl::turn_knobs(const frame::Knobs& knobs, const QString& what) {
     if (!runner_.running()) return;
     runner_.turn_knobs(knobs);
@@ -335,8 +360,10 @@ void SessionControl::refresh() {
     }
     while (const auto sample = runner_.take_sample()) Q_EMIT sampled(*sample);
     while (const auto end = runner_.take_trial_end()) Q_EMIT trial_ended(*end);
-    if (const QString folder = runner_.take_folder(); !folder.isEmpty() && runner_.plan().task)
-        figures_.follow(folder);
+    if (const QString folder = runner_.take_folder(); !folder.isEmpty()) {
+        running_ = folder;
+        if (runner_.plan().task) figures_.follow(folder);
+    }
     if (const frame::Frame& frame = runner_.read_frame(); frame.sequence >= 0) show(frame);
     if (runner_.finishing()) Q_EMIT changed();
 }
@@ -372,6 +399,7 @@ void SessionControl::end(const SessionEnd& end) {
     page_ = -1;
     complaint_.clear();
     for (const QString& message : end.messages) log(message, !end.good);
+    for (const QString& aside : end.asides) log(aside);
     figures_.finish();
     recorded_ = end.folder;
     if (!end.folder.isEmpty()) log(tr("recorded in %1").arg(end.folder));

@@ -108,6 +108,8 @@ class SessionControl : public QObject {
     /// "" if Escape was pressed.
     void take_force_away(const QString& why = "");
     void set_pace(double pace);
+    /// Adds a line to the note of the running session, with the time and the trial.
+    void note(const QString& text);
     void turn_knobs(const frame::Knobs& knobs, const QString& what);
     /// Passes on a key press for which a task may be waiting.
     void press(char key);
@@ -175,6 +177,7 @@ class SessionControl : public QObject {
     double pace_ = 1;           ///< ratio of session time to wall time, as measured
     double pace_from_ = 0;      ///< session time at which since_pace_ was started [s]
     QElapsedTimer since_pace_;  ///< invalid while time stands still
+    QString running_;           ///< folder of the running session; "" before it is known
     QString recorded_;
     QString complaint_;
 };

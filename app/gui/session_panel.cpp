@@ -20,7 +20,6 @@ SessionPanel::SessionPanel(SessionControl& control)
       sign_(new SignLabel(this)),
       form_(new QFormLayout),
       file_row_(new QHBoxLayout),
-      hand_row_(new QHBoxLayout),
       file_(new QLabel(tr("none"))),
       rig_(new QComboBox),
       participant_(new QLineEdit),
@@ -33,12 +32,10 @@ SessionPanel::SessionPanel(SessionControl& control)
       stop_(new QPushButton(icon(shapes::kStop), "")),
       trial_(new QLabel),
       names_(new QLabel),
-      progress_(new QProgressBar) {
-    file_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    rig_->addItem(tr("as in the file"), QString());
-    rig_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    set_up_identifier(*participant_);
-    set_up_hand();
+      progress_(new QProgressBar),
+      strip_(new TrialStrip),
+      note_(new QLineEdit) {
+    make_form();
     // as wide as possible, so that nothing moves under the pointer
     for (QLabel* label : {trial_, names_})
         label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -47,16 +44,6 @@ SessionPanel::SessionPanel(SessionControl& control)
     names_->setWordWrap(true);
     progress_->setTextVisible(true);
 
-    file_row_->addWidget(file_, 1);
-    file_row_->addWidget(open_);
-    form_->addRow(tr("File"), file_row_);
-    form_->addRow(tr("&Rig"), rig_);
-    form_->addRow(tr("Partici&pant"), participant_);
-    hand_row_->addWidget(hand_, 1);
-    hand_row_->addWidget(pace_, 1);
-    auto* hand_label = new QLabel(tr("&Hand moved by"));
-    hand_label->setBuddy(hand_);
-    form_->addRow(hand_label, hand_row_);
     auto* layout = new QVBoxLayout(this);
     layout->setSpacing(space::kUsual);
     sign_->show();
@@ -64,14 +51,38 @@ SessionPanel::SessionPanel(SessionControl& control)
     layout->addWidget(trial_);
     layout->addWidget(names_);
     layout->addWidget(progress_);
+    layout->addWidget(strip_);
     layout->addLayout(form_);
     make_buttons();
+    layout->addWidget(note_);
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
 
-    connect(open_, &QPushButton::clicked, this, &SessionPanel::open_requested);
-    connect(rig_, &QComboBox::activated, this, &SessionPanel::choice_changed);
     connect_control();
     show_state();
+}
+
+void SessionPanel::make_form() {
+    file_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    rig_->addItem(tr("as in the file"), QString());
+    rig_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    set_up_identifier(*participant_);
+    set_up_hand();
+    file_row_->addWidget(file_, 1);
+    file_row_->addWidget(open_);
+    form_->addRow(tr("File"), file_row_);
+    form_->addRow(tr("&Rig"), rig_);
+    form_->addRow(tr("Partici&pant"), participant_);
+    form_->addRow(tr("&Hand moved by"), hand_);
+    form_->addRow(tr("Pace"), pace_);
+    connect(open_, &QPushButton::clicked, this, &SessionPanel::open_requested);
+    connect(rig_, &QComboBox::activated, this, &SessionPanel::choice_changed);
+    note_->setAccessibleName(tr("Note"));
+    note_->setToolTip(tr("F3: Enter adds this to the session's note, with the time and the trial"));
+    connect(note_, &QLineEdit::returnPressed, this, [this] {
+        control_.note(note_->text());
+        note_->clear();
+        Q_EMIT note_written();
+    });
 }
 
 void SessionPanel::make_buttons() {
@@ -102,7 +113,16 @@ void SessionPanel::connect_control() {
     });
     connect(&control_, &SessionControl::finishing_progressed, this,
             [this](double share) { set_progress(share, tr("writing files: %p %")); });
-    connect(&control_, &SessionControl::ended, this, [this] { set_trial("", ""); });
+    connect(&control_, &SessionControl::started, strip_,
+            [this](const session::Plan& plan) { strip_->set_plan(plan.task); });
+    connect(&control_, &SessionControl::opened, strip_, [this] { strip_->set_plan(nullptr); });
+    connect(&control_, &SessionControl::trial_ended, strip_, &TrialStrip::add);
+    connect(&control_, &SessionControl::framed, strip_,
+            [this](const frame::Frame& frame) { strip_->set_current(frame.trial); });
+    connect(&control_, &SessionControl::ended, this, [this] {
+        set_trial("", "");
+        strip_->set_current(0);
+    });
 }
 
 /// Sets up the choice of what moves the simulated hands, and of the speed of simulated time.
@@ -119,10 +139,14 @@ void SessionPanel::set_up_hand() {
         tr("The speed of a simulated hand's time. No result depends on it. While the session is "
            "paused, Ctrl+. does one tick."));
     connect(hand_, &QComboBox::activated, this, &SessionPanel::choice_changed);
-    connect(hand_, &QComboBox::currentIndexChanged, this,
-            [this] { pace_->setVisible(hand() != Hand::mouse); });
+    connect(hand_, &QComboBox::currentIndexChanged, this, &SessionPanel::show_pace);
     connect(pace_, &QComboBox::activated, this, [this] { control_.set_pace(pace()); });
-    pace_->hide();
+}
+
+void SessionPanel::show_pace() {
+    const SessionRunner& runner = control_.runner();
+    form_->setRowVisible(pace_,
+                         runner.running() ? runner.on_virtual_clock() : hand() != Hand::mouse);
 }
 
 void SessionPanel::set_rigs(const QStringList& files) {
@@ -146,11 +170,14 @@ void SessionPanel::show_state() {
     trial_->setVisible(trials && runs);
     names_->setVisible(trials && runs);
     progress_->setVisible(runs || control_.loading());
+    strip_->setVisible(strip_->has_trials());
+    note_->setVisible(runs);
+    note_->setPlaceholderText(trials ? tr("Note on this trial (F3)") : tr("Note (F3)"));
     // what cannot be chosen now is not there, except for the pace of simulated time
     form_->setRowVisible(file_row_, !runs);
     form_->setRowVisible(rig_, !runs);
-    form_->setRowVisible(hand_row_, !runs || control_.runner().on_virtual_clock());
-    pace_->setVisible(hand() != Hand::mouse && !hand_->isHidden());
+    form_->setRowVisible(hand_, !runs);
+    show_pace();
     // for trials by anyone else, the window asks who does them
     form_->setRowVisible(participant_, !runs && (!trials || hand() == Hand::person));
     for (QWidget* choice : std::initializer_list<QWidget*>{open_, rig_, participant_, hand_})
@@ -184,6 +211,10 @@ void SessionPanel::show_sign() {
     pause_->setVisible(runs);
     skip_->setVisible(runs && control_.has_trials());
     stop_->setVisible(runs || control_.may(Act::stop));
+}
+
+void SessionPanel::write_note() {
+    note_->setFocus();
 }
 
 void SessionPanel::set_progress(double share, const QString& text) {

@@ -12,6 +12,7 @@
 
 #include "session_control.h"
 #include "sign_label.h"
+#include "trial_strip.h"
 
 namespace dihaptic::gui {
 
@@ -35,28 +36,32 @@ class SessionPanel : public QWidget {
     /// Ratio of session time to wall time; 0 for as fast as the machine allows. It is 1 if the
     /// mouse moves the hand.
     double pace() const;
+    /// Gives the keyboard to the field for a note on the running trial.
+    void write_note();
 
   Q_SIGNALS:
     void open_requested();
     /// A different rig or hand was chosen.
     void choice_changed();
     void start_requested();
+    void note_written();
 
   private:
     void set_up_hand();
     void connect_control();
     void show_state();
     void show_sign();
+    void show_pace();
     void set_progress(double share, const QString& text);
     /// Shows the running trial; empty texts if there is none.
     void set_trial(const QString& number, const QString& names);
+    void make_form();
     void make_buttons();
 
     SessionControl& control_;
     SignLabel* sign_;
     QFormLayout* form_;
     QHBoxLayout* file_row_;
-    QHBoxLayout* hand_row_;
     QLabel* file_;
     QComboBox* rig_;
     QLineEdit* participant_;
@@ -70,6 +75,8 @@ class SessionPanel : public QWidget {
     QLabel* trial_;
     QLabel* names_;
     QProgressBar* progress_;
+    TrialStrip* strip_;
+    QLineEdit* note_;
 };
 
 }  // namespace dihaptic::gui

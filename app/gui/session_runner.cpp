@@ -131,8 +131,9 @@ SessionEnd SessionRunner::run(Session& session, const session::RunOptions& optio
                     Qt::QueuedConnection);
             },
             std::move(session.devices));
-        for (const std::string& note : recorded.notes) end.messages += QString::fromStdString(note);
-        end.messages += QString::fromStdString(recorded.figures.convergence.describe());
+        for (const std::string& note : recorded.notes)
+            (note.starts_with("note:") ? end.asides : end.messages) += QString::fromStdString(note);
+        end.asides += QString::fromStdString(recorded.figures.convergence.describe());
         end.good = recorded.good();
     } catch (const std::exception& e) {
         end.messages += QString::fromStdString(e.what());

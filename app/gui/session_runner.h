@@ -20,6 +20,7 @@ namespace dihaptic::gui {
 struct SessionEnd {
     QString folder;        ///< folder of the recording; empty if the session never started
     QStringList messages;  ///< faults, with their remedies
+    QStringList asides;    ///< what need not worry the operator
     bool good = false;     ///< no faults
 };
 

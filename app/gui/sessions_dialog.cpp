@@ -29,7 +29,6 @@ struct SessionColumn {
     enum { started, title, participant, moved_by, state, lasted, trials, lifts, note, folder_name };
 };
 
-constexpr const char* kNote = "note.txt";
 constexpr int kLooked = 20;  // number of sessions after which the column widths are adjusted
 
 /// Reads a table of a session and returns what `count` makes of it; "" if the table is missing or
@@ -84,7 +83,7 @@ QString changes_of(const recording::SessionFolder& folder, const recording::Sess
 }
 
 QString note_of(const QString& session) {
-    const std::string file = (session + "/" + kNote).toStdString();
+    const std::string file = (session + "/" + kNoteFile).toStdString();
     try {
         return is_there(file) ? QString::fromStdString(read_text_file(file)).trimmed() : "";
     } catch (const Error&) {
@@ -175,7 +174,7 @@ void SessionsDialog::write_note() {
     QTreeWidgetItem* const item = list_->currentItem();
     if (item == nullptr) return;
     const QString session = item->data(0, Qt::UserRole).toString();
-    const std::string file = (session + "/" + kNote).toStdString();
+    const std::string file = (session + "/" + kNoteFile).toStdString();
     try {
         // checked before the user writes a note in vain or sees a foreign file as a note
         check_replaceable(file);

@@ -46,7 +46,7 @@ void StripChart::paintEvent(QPaintEvent*) {
     painter.setRenderHint(QPainter::Antialiasing);
     const QFontMetrics metrics = fontMetrics();
     const int line = metrics.height();
-    const QString heading = QString("%1 / %2").arg(title_, unit_);
+    const QString heading = QString("%1 [%2]").arg(title_, unit_);
     const double legend = ChartPainter::legend_width(metrics, curves_);
     const bool one_line = metrics.horizontalAdvance(heading) + 10 + legend < width() - 60;
     const int head = (one_line ? 1 : 2) * line;

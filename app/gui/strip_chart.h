@@ -26,7 +26,7 @@ class StripChart : public QWidget {
     void clear();
 
     QSize sizeHint() const override { return {320, 150}; }
-    QSize minimumSizeHint() const override { return {160, 70}; }
+    QSize minimumSizeHint() const override { return {160, 150}; }
 
   protected:
     void paintEvent(QPaintEvent* event) override;

@@ -1,22 +1,16 @@
 #include "trial_chart.h"
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
 
+#include "theme.h"
+
 namespace dihaptic::gui {
 namespace {
 
 constexpr size_t kLeastAcross = 10;  // number of trials for which there is room at first
-
-QColor outcome_colour(int outcome) {
-    // the first outcome is usually the desired one
-    constexpr std::array colours{"#009e73", "#d55e00", "#0072b2", "#cc79a7", "#e69f00"};
-    return outcome < 0 ? QColor("#808080")
-                       : QColor(colours[static_cast<size_t>(outcome) % colours.size()]);
-}
 
 }  // namespace
 
@@ -24,10 +18,10 @@ TrialChart::TrialChart(QWidget* parent) : QWidget(parent) {
     setAccessibleName(QObject::tr("Chart of trials"));
 }
 
-void TrialChart::set_points(const QString& name, const QStringList& outcomes,
+void TrialChart::set_points(const QString& name, std::vector<ChartPainter::Entry> outcomes,
                             std::vector<Point> points) {
     name_ = name;
-    outcomes_ = outcomes;
+    outcomes_ = std::move(outcomes);
     points_ = std::move(points);
     update();
 }
@@ -66,10 +60,15 @@ std::vector<ChartPainter::Entry> TrialChart::legend() const {
     for (const Point& point : points_) came.insert(point.outcome);
     std::vector<ChartPainter::Entry> out;
     for (const int outcome : came) {
-        if (outcome >= 0 && outcome < outcomes_.size())
-            out.push_back({outcomes_[outcome], outcome_colour(outcome)});
+        if (outcome >= 0 && static_cast<size_t>(outcome) < outcomes_.size())
+            out.push_back(outcomes_[static_cast<size_t>(outcome)]);
     }
     return out;
+}
+
+QColor TrialChart::colour_of(int outcome) const {
+    const auto i = static_cast<size_t>(outcome);
+    return outcome >= 0 && i < outcomes_.size() ? outcomes_[i].colour : legible("#808080");
 }
 
 void TrialChart::draw_points(const ChartPainter& chart) const {
@@ -88,7 +87,7 @@ void TrialChart::draw_points(const ChartPainter& chart) const {
     for (size_t i = 0; i < points_.size(); ++i) {
         const QPointF point(static_cast<double>(i), points_[i].value);
         if (std::isfinite(point.y()))
-            chart.draw_dot(chart.at(point), outcome_colour(points_[i].outcome));
+            chart.draw_dot(chart.at(point), colour_of(points_[i].outcome));
     }
 }
 

@@ -17,22 +17,23 @@ class TrialChart : public QWidget {
         int outcome = 0;
         bool begins_block = false;
     };
-    /// `name`: name of the plotted number, with its unit. `outcomes`: names of the outcomes, for
-    /// the legend.
-    void set_points(const QString& name, const QStringList& outcomes, std::vector<Point> points);
+    /// `name`: name of the plotted number, with its unit.
+    void set_points(const QString& name, std::vector<ChartPainter::Entry> outcomes,
+                    std::vector<Point> points);
 
     QSize sizeHint() const override { return {320, 150}; }
-    QSize minimumSizeHint() const override { return {160, 90}; }
+    QSize minimumSizeHint() const override { return {160, 150}; }
 
   protected:
     void paintEvent(QPaintEvent* event) override;
 
   private:
     std::vector<ChartPainter::Entry> legend() const;
+    QColor colour_of(int outcome) const;
     void draw_points(const ChartPainter& chart) const;
 
     QString name_;
-    QStringList outcomes_;
+    std::vector<ChartPainter::Entry> outcomes_;
     std::vector<Point> points_;
 };
 

@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "base/unit.h"
+#include "column_words.h"
+#include "outcomes.h"
 #include "task/plan/levels.h"
 
 namespace dihaptic::gui {
@@ -18,7 +20,7 @@ struct Number {
     double si;     ///< that unit
 };
 
-constexpr int kSeconds = 5, kGrip = 6, kForce = 7, kOwn = 8;  // columns that contain numbers
+enum Column { kTrial, kBlock, kCondition, kAttempt, kOutcome, kSeconds, kGrip, kForce, kOwn };
 
 /// The task's own numbers, in the order in which a frame stores them.
 std::vector<Number> numbers_of(const task::TaskPlan& plan) {
@@ -62,21 +64,18 @@ void TrialsPanel::set_plan(std::shared_ptr<const task::TaskPlan> plan) {
     found_.clear();
     chosen_ = false;
     plan_ = std::move(plan);
-    QStringList names{tr("trial"),   tr("block"), tr("condition"), tr("attempt"),
-                      tr("outcome"), "s",         tr("grip N"),    tr("force N")};
+    QStringList names{tr("trial"),   tr("block"),        tr("condition"),     tr("attempt"),
+                      tr("outcome"), tr("duration [s]"), tr("peak grip [N]"), tr("peak force [N]")};
     units_.clear();
     if (plan_) {
         for (const Number& number : numbers_of(*plan_)) {
-            names += number.name;
+            names += column_words(number.name);
             units_.push_back(number.si);
         }
     }
     table_->setColumnCount(static_cast<int>(names.size()));
     table_->setHeaderLabels(names);
-    for (int column = 0; column < table_->columnCount(); ++column) {
-        table_->setColumnHidden(column, false);
-        table_->resizeColumnToContents(column);
-    }
+    arrange();
     // shows the first number that the task itself counts or chooses, if there is one
     chart(units_.empty() ? kSeconds : kOwn);
 }
@@ -102,11 +101,7 @@ double TrialsPanel::value(size_t row, int column) const {
 void TrialsPanel::chart(int column) {
     if (column < kSeconds) return;
     charted_ = column;
-    QStringList outcomes;
-    if (plan_) {
-        for (const auto& outcome : plan_->outcomes)
-            outcomes += QString::fromStdString(outcome.name);
-    }
+    const auto outcomes = plan_ ? outcomes_of(*plan_) : std::vector<ChartPainter::Entry>();
     const auto block_of = [&](const session::TrialEnd& end) {
         return plan_->trials[static_cast<size_t>(end.trial) - 1].block;
     };
@@ -115,7 +110,39 @@ void TrialsPanel::chart(int column) {
         const bool begins = row > 0 && block_of(ends_[row]) != block_of(ends_[row - 1]);
         points.push_back({value(row, column), ends_[row].outcome, begins});
     }
+    Q_EMIT charted(table_->headerItem()->text(column), outcomes, points);
     chart_->set_points(table_->headerItem()->text(column), outcomes, std::move(points));
+}
+
+/// Whether a column says anything: it has a text, and not the same trivial one in each row.
+bool TrialsPanel::tells(int column) const {
+    for (size_t row = 0; row < ends_.size(); ++row) {
+        const double number = column < kSeconds ? kUnmeasured : value(row, column);
+        const QString text = table_->topLevelItem(static_cast<int>(row))->text(column);
+        if (column == kAttempt  ? text != "1"
+            : column < kSeconds ? !text.isEmpty()
+                                : std::isfinite(number) && number != 0)
+            return true;
+    }
+    return false;
+}
+
+/// Puts the columns that an operator follows first, hides those without values, and fits all to
+/// their contents.
+void TrialsPanel::arrange() {
+    std::vector<int> order{kTrial, kBlock, kCondition, kOutcome};
+    for (int column = own_columns(); column < table_->columnCount(); ++column)
+        order.push_back(column);
+    for (int column = kOwn; column < own_columns(); ++column) order.push_back(column);
+    order.insert(order.end(), {kSeconds, kGrip, kForce, kAttempt});
+    QHeaderView& header = *table_->header();
+    for (size_t place = 0; place < order.size(); ++place) {
+        header.moveSection(header.visualIndex(order[place]), static_cast<int>(place));
+        const bool empty = !ends_.empty() && !tells(order[place]);
+        table_->setColumnHidden(order[place],
+                                empty || (ends_.empty() && order[place] >= own_columns()));
+        table_->resizeColumnToContents(order[place]);
+    }
 }
 
 void TrialsPanel::add(const session::TrialEnd& end) {
@@ -148,10 +175,7 @@ void TrialsPanel::add(const session::TrialEnd& end) {
     // if the user has scrolled back, the view does not move
     const QScrollBar* const bar = table_->verticalScrollBar();
     if (bar->value() >= bar->maximum() - 1) table_->scrollToItem(item);
-    if (table_->topLevelItemCount() == 1) {
-        for (int column = 0; column < table_->columnCount(); ++column)
-            table_->resizeColumnToContents(column);
-    }
+    arrange();
 }
 
 void TrialsPanel::set_figures(const Table& trials) {
@@ -182,24 +206,24 @@ void TrialsPanel::set_figures(const Table& trials) {
             return std::isfinite(of.second[static_cast<size_t>(i)]);
         };
         const bool any = std::ranges::any_of(found_, has);
-        table_->setColumnHidden(column, !any);
         // a measure tells more than the duration
         if (any && !chosen_ && charted_ == kSeconds && !figures_[i].endsWith("_s"))
             charted_ = column;
     }
+    arrange();
     chart(charted_);
 }
 
-/// Adds a column for each measured number. A column stays hidden as long as it has no values.
+/// Adds a column for each measured number.
 void TrialsPanel::name_figures(const Table& trials, size_t first) {
     for (size_t i = first; i < trials.columns.size(); ++i) {
         const Table::Column& column = trials.columns[i];
         figures_ += QString::fromStdString(column.name);
         const int at = own_columns() + static_cast<int>(figures_.size()) - 1;
         table_->setColumnCount(at + 1);
-        table_->headerItem()->setText(at, figures_.back());
-        table_->headerItem()->setToolTip(at, QString::fromStdString(column.in_words()));
-        table_->setColumnHidden(at, true);
+        table_->headerItem()->setText(at, column_words(figures_.back()));
+        table_->headerItem()->setToolTip(
+            at, QString("%1: %2").arg(figures_.back(), QString::fromStdString(column.in_words())));
     }
 }
 

@@ -25,6 +25,12 @@ class TrialsPanel : public QWidget {
     /// Fills in the measures of the attempts. `trials`: a table in the form of trials.csv.
     void set_figures(const Table& trials);
 
+  Q_SIGNALS:
+    /// The chart shows these numbers, one for each attempt. `name`: in words, with the unit.
+    void charted(const QString& name,
+                 const std::vector<dihaptic::gui::ChartPainter::Entry>& outcomes,
+                 const std::vector<dihaptic::gui::TrialChart::Point>& points);
+
   private:
     /// The measures of an attempt.
     using Figures = std::vector<double>;
@@ -35,6 +41,8 @@ class TrialsPanel : public QWidget {
     void name_figures(const Table& trials, size_t first);
     void fill_in(size_t row);
     int own_columns() const;
+    bool tells(int column) const;
+    void arrange();
 
     std::shared_ptr<const task::TaskPlan> plan_;
     std::vector<double> units_;  // SI units of the task's own columns

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <QCoreApplication>
+#include <QRegularExpression>
 #include <algorithm>
 #include <map>
 
 #include "answer_until.h"
+#include "base/text_file.h"
 #include "session_sign.h"
 #include "testing/files.h"
 
@@ -163,6 +165,22 @@ TEST_F(SessionControlTest, ASessionStartsPausesAndEnds) {
     EXPECT_FALSE(control_.stale());
     control_.take_force_away("too late");
     EXPECT_TRUE(control_.complaint().isEmpty());
+}
+
+TEST_F(SessionControlTest, NotesAreKeptWithTheTime) {
+    control_.note("nothing runs");
+    run();
+    ASSERT_TRUE(answer_until([&] { return frames_ > 0; }));
+    control_.note("  the participant\n coughed ");
+    control_.note(" ");
+    control_.note("and again");
+    control_.stop();
+    ASSERT_TRUE(answer_until([&] { return ended_ == 1; }));
+    const std::string note = read_text_file(control_.recorded().toStdString() + "/note.txt");
+    const QRegularExpression lines(
+        "^\\d\\d:\\d\\d:\\d\\d \\(\\d+\\.\\d s\\): the participant coughed\n"
+        "\\d\\d:\\d\\d:\\d\\d \\(\\d+\\.\\d s\\): and again\n$");
+    EXPECT_TRUE(lines.match(QString::fromStdString(note)).hasMatch()) << note;
 }
 
 TEST_F(SessionControlTest, AMouseMovesTheHandInRealTime) {

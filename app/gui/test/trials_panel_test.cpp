@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QHeaderView>
 
 #include "session/plan.h"
 
@@ -48,7 +49,7 @@ class TrialsPanelTest : public ::testing::Test {
 TEST_F(TrialsPanelTest, ShowsWhatIsMeasuredOnceItIsFound) {
     end(1, 1);
     end(1, 2);
-    EXPECT_EQ(text(0, "hand_angle_deg"), "no column");
+    EXPECT_EQ(text(0, "hand angle [deg]"), "no column");
     const Table::Cell none = kUnmeasured;
     Table found;
     for (const char* name : {"start_time", "trial_num", "attempt", "outcome", "peak_grip_N",
@@ -58,17 +59,48 @@ TEST_F(TrialsPanelTest, ShowsWhatIsMeasuredOnceItIsFound) {
                   {2.0, 1.0, 2.0, "reached", none, 1.0, -12.25, none, ""},
                   {4.0, 2.0, 1.0, "interrupted", none, 1.0, 3.5, none, ""}};
     panel_.set_figures(found);
-    EXPECT_EQ(text(0, "hand_angle_deg"), "");
-    EXPECT_EQ(text(1, "hand_angle_deg"), "-12.25");
-    EXPECT_EQ(text(1, "shown_extent_mm"), "hidden");
-    EXPECT_EQ(text(1, "not_measured"), "hidden");
-    EXPECT_EQ(text(1, "peak_grip_N"), "no column") << "it is shown as grip";
+    EXPECT_EQ(text(0, "hand angle [deg]"), "");
+    EXPECT_EQ(text(1, "hand angle [deg]"), "-12.25");
+    EXPECT_EQ(text(1, "shown extent [mm]"), "hidden");
+    EXPECT_EQ(text(1, "not measured"), "hidden");
+    EXPECT_EQ(text(1, "peak_grip_N"), "no column");
     end(2, 1);  // its measures were found before the attempt ended
-    EXPECT_EQ(text(2, "hand_angle_deg"), "3.5");
+    EXPECT_EQ(text(2, "hand angle [deg]"), "3.5");
     end(3, 1);
-    EXPECT_EQ(text(3, "hand_angle_deg"), "");
+    EXPECT_EQ(text(3, "hand angle [deg]"), "");
     panel_.set_plan(nullptr);
-    EXPECT_EQ(text(0, "hand_angle_deg"), "no column");
+    EXPECT_EQ(text(0, "hand angle [deg]"), "no column");
+}
+
+TEST_F(TrialsPanelTest, PutsMeasuresFirstAndHidesWhatSaysNothing) {
+    end(1, 1);
+    EXPECT_EQ(text(0, "peak grip [N]"), "hidden") << "it is always 0";
+    EXPECT_EQ(text(0, "attempt"), "hidden") << "there has been only one for each trial";
+    end(1, 2);
+    EXPECT_EQ(text(0, "attempt"), "1");
+    Table found;
+    for (const char* name : {"trial_num", "attempt", "peak_force_N", "hand_angle_deg"})
+        found.columns.push_back({name, "meaning"});
+    found.rows = {{1.0, 1.0, 1.0, 2.5}, {1.0, 2.0, 1.0, -12.25}};
+    panel_.set_figures(found);
+    const QHeaderView& header = *table().header();
+    const auto place = [&](const char* name) {
+        for (int i = 0; i < table().columnCount(); ++i) {
+            if (table().headerItem()->text(i) == name) return header.visualIndex(i);
+        }
+        return -1;
+    };
+    EXPECT_EQ(place("hand angle [deg]"), place("outcome") + 1);
+    EXPECT_GT(place("duration [s]"), place("hand angle [deg]"));
+    EXPECT_TRUE(
+        table().headerItem()->toolTip(table().columnCount() - 1).contains("hand_angle_deg"));
+    for (int i = 0; i < table().columnCount(); ++i) {
+        if (table().isColumnHidden(i)) continue;
+        const QFontMetrics metrics(table().font());
+        EXPECT_GE(table().columnWidth(i),
+                  metrics.horizontalAdvance(table().topLevelItem(1)->text(i)))
+            << table().headerItem()->text(i).toStdString();
+    }
 }
 
 TEST_F(TrialsPanelTest, TakesATableThatSaysNothing) {
