@@ -60,6 +60,9 @@ class Small(Participants):
         self.look("start-page")
         self.key("alt+f", "r", "Return")
         self.settle()
+        for key, mode in (("ctrl+3", "look"), ("ctrl+2", "run"), ("ctrl+1", "prepare")):
+            self.key(key)
+            self.look("mode-" + mode)
         self.key("ctrl+e")
         self.look("editor")
         self.xdotool("windowfocus", self.name)

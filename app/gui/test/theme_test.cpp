@@ -9,6 +9,8 @@
 #include <cmath>
 #include <set>
 
+#include "base/palette.h"
+
 namespace dihaptic::gui {
 namespace {
 
@@ -62,6 +64,17 @@ TEST_P(ThemeTest, SignsCanBeReadAndToldApart) {
         EXPECT_TRUE(icons.insert(QString::fromStdString(std::string(look.icon))).second) << i;
     }
     EXPECT_GE(contrast(look_of(Sign::paused).fill, look_of(Sign::stopped).fill), kShape);
+}
+
+TEST_P(ThemeTest, ColoursOfDataStandOut) {
+    std::vector<QColor> colours{palette::kGrip, palette::kLoad, "#808080"};
+    for (size_t i = 0; i < palette::kFingers.size(); ++i) colours.emplace_back(palette::finger(i));
+    for (const QColor& colour : colours) {
+        EXPECT_GE(contrast(legible(colour), this->colour(QPalette::Window)), kShape)
+            << colour.name().toStdString();
+    }
+    for (const Tone mark : {Tone::good, Tone::bad})
+        EXPECT_GE(contrast(tone(mark), colour(QPalette::Window)), kShape);
 }
 
 INSTANTIATE_TEST_SUITE_P(InBothThemes, ThemeTest, ::testing::Bool());
