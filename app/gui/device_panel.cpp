@@ -8,12 +8,17 @@
 #include <cmath>
 #include <utility>
 
+#include "theme.h"
+
 namespace dihaptic::gui {
 namespace {
 
 struct DeviceColumn {
-    enum { finger, model, force, bar, status, count };
+    // in a narrow window, the last one is what need not be seen
+    enum { finger, force, bar, status, model, count };
 };
+
+constexpr int kStatus = 12;  // width of the column [characters]
 
 QString words(uint32_t status) {
     return status == 0 ? QObject::tr("OK") : QString::fromStdString(dihaptic::words(status));
@@ -24,10 +29,11 @@ QString words(uint32_t status) {
 DevicePanel::DevicePanel(QWidget* parent)
     : QWidget(parent), table_(new QTableWidget(0, DeviceColumn::count)), loop_(new QLabel) {
     table_->setHorizontalHeaderLabels(
-        {tr("Finger"), tr("Device"), tr("Force / limit"), tr("Load"), tr("Status")});
+        {tr("Finger"), tr("Force / limit"), tr("Load"), tr("Status"), tr("Device")});
     table_->verticalHeader()->hide();
     table_->horizontalHeader()->setStretchLastSection(true);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    table_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + space::kUsual);
     table_->setSelectionMode(QAbstractItemView::NoSelection);
     loop_->setWordWrap(true);
     auto* layout = new QVBoxLayout(this);
@@ -54,6 +60,7 @@ void DevicePanel::set_devices(const std::vector<Device>& devices) {
         show_force(i, 0);
     }
     table_->resizeColumnsToContents();
+    table_->setColumnWidth(DeviceColumn::status, kStatus * fontMetrics().averageCharWidth());
     table_->setColumnWidth(DeviceColumn::force, 100);
     table_->setColumnWidth(DeviceColumn::bar, 80);
 }
@@ -79,7 +86,9 @@ void DevicePanel::show_frame(const frame::Frame& frame) {
     for (size_t i = 0; i < devices_.size() && i < frame.fingers.size(); ++i) {
         const frame::FingerFrame& finger = frame.fingers[i];
         show_force(static_cast<int>(i), finger.f_sent_W.norm());
-        table_->item(static_cast<int>(i), DeviceColumn::status)->setText(words(finger.status));
+        QTableWidgetItem* status = table_->item(static_cast<int>(i), DeviceColumn::status);
+        status->setText(words(finger.status));
+        status->setToolTip(status->text());  // the words of several faults are longer than a column
     }
     if (frame.status & kOverrun) ++overruns_;
     if (frame.status & kUnbalanced) ++unbalanced_;

@@ -73,6 +73,13 @@ QRectF PlaneChart::shown_bounds(const QRectF& area) const {
     return out;
 }
 
+/// Number of lines of text above the chart.
+int PlaneChart::heading_lines() const {
+    const bool named =
+        std::ranges::any_of(lines_, [](const Line& of) { return !of.name.isEmpty(); });
+    return named || !result_.isEmpty() ? 2 : 1;
+}
+
 void PlaneChart::draw_heading(const ChartPainter& chart, QPainter& painter,
                               const QRectF& area) const {
     const int line = fontMetrics().height();
@@ -93,8 +100,9 @@ void PlaneChart::paintEvent(QPaintEvent*) {
     painter.setRenderHint(QPainter::Antialiasing);
     const int line = fontMetrics().height();
     const double left = fontMetrics().horizontalAdvance("-0000") + 8.0;
-    const QRectF area(left, 2 * line + 8.0, width() - left - 12,
-                      std::max(20.0, height() - (across_.isEmpty() ? 3.0 : 4.0) * line - 16));
+    const int beside = heading_lines() + (across_.isEmpty() ? 1 : 2);  // lines of text
+    const QRectF area(left, heading_lines() * line + 8.0, width() - left - 12,
+                      std::max(20.0, height() - beside * line - 16.0));
     const QRectF shown = shown_bounds(area);
     Scale up = scale_of(shown.top(), shown.bottom(), area.height() / (1.8 * line));
     if (alike_) up = {shown.top(), shown.bottom(), up.step};  // an even scale would stretch it

@@ -41,6 +41,7 @@ class PlaneChart : public QWidget {
   private:
     QRectF bounds() const;
     QRectF shown_bounds(const QRectF& area) const;
+    int heading_lines() const;
     void draw_heading(const ChartPainter& chart, QPainter& painter, const QRectF& area) const;
 
     double least_range_;

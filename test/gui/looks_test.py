@@ -87,10 +87,10 @@ class Looks(Window):
         self.xdotool("windowmove", participant, "1390", "890")
         time.sleep(2)
         self.screenshot("mirror")
-        panel = self.pixels(1020, 520, 370, 190)
-        drawn = np.flatnonzero((panel != panel[0, 0]).any(axis=0))  # the picture has the panel's height, and not its width
-        mirrored = panel[:, drawn[0]:drawn[-1] + 1]
-        self.assertLess(mirrored.shape[1], 300)
+        panel = self.pixels(1022, 240, 374, 610)
+        drawn = np.flatnonzero((panel != panel[0, 0]).any(axis=1))  # the picture has the panel's width, and not its height
+        mirrored = panel[drawn[0]:drawn[-1] + 1]
+        self.assertLess(mirrored.shape[0], 400)
         alike = np.corrcoef(coarse(seen[30:-30]), coarse(mirrored))[0, 1]
         self.assertGreater(alike, 0.95)
 
