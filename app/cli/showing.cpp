@@ -13,6 +13,7 @@
 #include "recording/session.h"
 #include "session/phase_director.h"
 #include "session/plan.h"
+#include "task/plan/shown_targets.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -76,6 +77,7 @@ Showing open_plan(const std::string& file) {
     out.title = run->plan.title;
     out.rig = run->plan.rig;
     out.scene = run->plan.scene;
+    if (run->plan.task) out.targets = task::shown_targets(*run->plan.task);
     out.duration = phases.empty() ? 0 : phases.back().end;
     const devices::DeviceGroup& devices = run->servo->devices();
     for (size_t i = 0; i < out.scene.fingers.size(); ++i)
@@ -143,7 +145,7 @@ void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& opt
 }
 
 Drawer::Drawer(const Showing& showing, const ViewOptions& options)
-    : object_(showing.scene.object_index()) {
+    : targets_(showing.targets), object_(showing.scene.object_index()) {
     const std::vector<view::Camera> cameras = view::cameras(showing.scene);
     camera_ = options.camera.empty() ? cameras.front() : view::find_camera(cameras, options.camera);
     if (options.display) display_ = rig::display_of(showing.rig, *options.display);
@@ -173,6 +175,13 @@ void Drawer::follow(const frame::Frame& frame) {
 
 Image Drawer::draw(const frame::Frame& frame) {
     overlays_.path = path_;
+    if (targets_.empty()) return draw_as_it_is(frame);
+    frame::Frame with_targets = frame;
+    with_targets.task.targets = targets_;
+    return draw_as_it_is(with_targets);
+}
+
+Image Drawer::draw_as_it_is(const frame::Frame& frame) {
     const int width = offscreen_->width(), height = offscreen_->height();
     if (display_) {
         view_->draw(frame, *display_, width, height, overlays_);

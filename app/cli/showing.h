@@ -20,7 +20,9 @@ struct Showing {
     std::string title;
     scene::Scene scene;
     rig::Rig rig;
-    std::vector<view::Workspace> workspaces;    ///< workspaces of devices, where they are known
+    std::vector<view::Workspace> workspaces;  ///< workspaces of devices, where they are known
+    /// Targets of an experiment, drawn in all of its pictures; a recorded session has its own.
+    std::vector<frame::TargetFrame> targets;
     double duration = 0;                        ///< planned duration [s]; 0 if unknown
     bool recorded = false;                      ///< whether the content is a recorded session
     std::function<const frame::Frame*()> next;  ///< returns the next frame; null at the end
@@ -54,9 +56,12 @@ class Drawer {
     int height() const { return offscreen_->height(); }
 
   private:
+    Image draw_as_it_is(const frame::Frame& frame);
+
     view::Camera camera_;
     std::optional<display::Display> display_;  // drawn instead of the camera's view
     view::Overlays overlays_;
+    std::vector<frame::TargetFrame> targets_;
     bool path_wanted_ = false;
     int object_ = -1;
     std::vector<Vec3> path_;
