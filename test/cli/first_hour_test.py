@@ -99,6 +99,29 @@ class NewStudy(FirstHour):
         self.assertEqual(os.listdir(self.folder / "empty"), [])
         self.assertEqual(sorted(os.listdir(self.folder)), ["empty", "file", "link"])
 
+    def test_makes_a_scene_or_an_experiment_alone(self):
+        def new(*words):
+            return dihaptic("new", *words, program=str(HERE), cwd=self.folder)
+
+        self.assertEqual(new("scene", "mine.yaml").returncode, 0)
+        self.assertEqual(os.listdir(self.folder), ["mine.yaml"])
+        (self.folder / "scene.yaml").write_text("mine")
+        self.assertEqual(new("experiment", "reach.yaml").returncode, 0)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["mine.yaml", "reach.yaml", "rig.yaml", "scene.yaml"])
+        self.assertEqual((self.folder / "scene.yaml").read_text(), "mine")  # the study's own is used
+        (self.folder / "scene.yaml").write_text((self.folder / "mine.yaml").read_text())
+        check = dihaptic("check", "mine.yaml", "reach.yaml", "rig.yaml", program=str(HERE), cwd=self.folder)
+        self.assertEqual(check.returncode, 0, check.stderr)
+        for words, told in [(["scene", "mine.yaml"], "already exists"), (["scene", "other"], "dihaptic new scene other.yaml"),
+                            (["experiment", "my reach.yaml"], "dihaptic new experiment my-reach.yaml"),
+                            (["experiment", "sub/rig.yaml"], "Make it first"),
+                            (["experiment", "sub2/rig.yaml"], "Choose another name")]:
+            (self.folder / "sub2").mkdir(exist_ok=True)
+            result = new(*words)
+            self.assertEqual(result.returncode, 2, words)
+            self.assertIn(told, result.stderr)
+        self.assertEqual(os.listdir(self.folder / "sub2"), [])
+
     def test_refuses_names_that_a_shell_takes_otherwise(self):
         for name, better in [("my study", "my-study"), ("a;b", "a-b"), ("$HOME", "HOME"), (".hidden", "hidden"),
                              ("", "my-study"), ("..", "my-study"), ("../my study", "my-study")]:
