@@ -4,12 +4,15 @@
 #include <QHelpEvent>
 #include <QPainter>
 #include <QRegularExpression>
+#include <QScreen>
 #include <QScrollBar>
 #include <QStandardItemModel>
 #include <QSyntaxHighlighter>
 #include <QTextBlock>
 #include <QToolTip>
 #include <algorithm>
+
+#include "indent.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -191,6 +194,8 @@ void CodeEdit::offer(const WordPlace& place, const std::vector<Choice>& words) {
     if (now.asking != place.asking || !hasFocus()) return;  // the cursor has moved in the meantime
     auto& model = static_cast<QStandardItemModel&>(*words_->model());
     model.clear();
+    const QFontMetrics metrics(words_->popup()->font());
+    words_width_ = 0;
     size_t longest = 0;
     for (const Choice& word : words) longest = std::max(longest, word.word.size());
     for (const Choice& word : words) {
@@ -199,6 +204,7 @@ void CodeEdit::offer(const WordPlace& place, const std::vector<Choice>& words) {
                                        QString::fromStdString(word.what));
         item->setData(name, Qt::UserRole);
         model.appendRow(item);
+        words_width_ = std::max(words_width_, metrics.horizontalAdvance(item->text()));
     }
     WordPlace here = place;
     here.typed = now.typed;
@@ -214,8 +220,10 @@ void CodeEdit::show_words(const WordPlace& place) {
     words_->popup()->setCurrentIndex(words_->completionModel()->index(0, 0));
     QRect at = cursorRect();
     at.translate(margin_width(), 0);
-    at.setWidth(words_->popup()->sizeHintForColumn(0) +
-                words_->popup()->verticalScrollBar()->sizeHint().width());
+    // sizeHintForColumn() would measure only the entries that happen to be visible
+    const int edge = 2 * (words_->popup()->frameWidth() + kMarginSpace / 2) +
+                     words_->popup()->verticalScrollBar()->sizeHint().width();
+    at.setWidth(std::min(words_width_ + edge, screen()->availableSize().width()));
     words_->complete(at);
 }
 
@@ -229,8 +237,7 @@ void CodeEdit::take_word(const QModelIndex& word) {
     setTextCursor(cursor);
 }
 
-/// Tab inserts spaces, because YAML does not allow tabs, and a new line usually keeps the
-/// indentation of the previous line.
+/// Tab inserts spaces, because YAML does not allow tabs, and a new line is indented.
 void CodeEdit::keyPressEvent(QKeyEvent* event) {
     const bool choosing = words_->popup()->isVisible();
     if (choosing && QList<int>{Qt::Key_Return, Qt::Key_Enter, Qt::Key_Tab, Qt::Key_Escape}.contains(
@@ -244,10 +251,10 @@ void CodeEdit::keyPressEvent(QKeyEvent* event) {
         return;
     }
     if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) {
-        static const QRegularExpression leading(R"(^ *(- +)*)");
-        const QString line = textCursor().block().text();
-        const auto length = static_cast<int>(leading.match(line).capturedLength());
-        insertPlainText("\n" + QString(length, ' '));
+        QTextCursor at = textCursor();
+        at.setPosition(at.selectionStart());
+        insertPlainText("\n" +
+                        QString(indent_after(at.block().text().left(at.positionInBlock())), ' '));
         return ensureCursorVisible();
     }
     PlainText::keyPressEvent(event);

@@ -51,7 +51,8 @@ class CodeEdit : public PlainText {
     void take_word(const QModelIndex& word);
 
     QCompleter* words_;
-    WordPlace offered_;  // position for which the word list is shown
+    WordPlace offered_;    // position for which the word list is shown
+    int words_width_ = 0;  // width of the longest entry of the word list [pixels]
     Margin* margin_;
     std::map<int, QString> problems_;
 };

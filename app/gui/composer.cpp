@@ -34,6 +34,7 @@ int line_of(const QByteArray& text, size_t at) {
 Composer::Composer(QWidget* parent)
     : QWidget(parent),
       edit_(new CodeEdit),
+      find_(new FindBar(*edit_)),
       state_(new QLabel),
       save_(new QPushButton(tr("Sa&ve"))) {
     edit_->setAccessibleName(tr("File's text"));
@@ -46,6 +47,7 @@ Composer::Composer(QWidget* parent)
     below->addWidget(save_);
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(edit_, 1);
+    layout->addWidget(find_);
     layout->addLayout(below);
     pause_.setSingleShot(true);
     pause_.setInterval(kPause);

@@ -15,6 +15,7 @@
 #include "code_edit.h"
 #include "draft.h"
 #include "edited_file.h"
+#include "find_bar.h"
 
 namespace dihaptic::gui {
 
@@ -33,6 +34,11 @@ class Composer : public QWidget {
     /// Discards unsaved changes.
     void forget();
     void take_focus() { edit_->setFocus(); }
+    bool has_focus() const { return edit_->hasFocus(); }
+    /// Asks what to find in the text.
+    void find() { find_->ask(); }
+    void find_next() { find_->find(); }
+    void find_previous() { find_->find(true); }
     /// Moves the cursor to this position. Returns false if the position is in another file.
     bool go_to(const Place& place);
     /// Name of the body whose lines contain the cursor; empty if there is none.
@@ -114,6 +120,7 @@ class Composer : public QWidget {
     QString notes_;                // all notes that are shown
     QString problems_;             // shown problems of the text
     CodeEdit* edit_;
+    FindBar* find_;
     QLabel* state_;
     QPushButton* save_;
     WordFinder finder_;

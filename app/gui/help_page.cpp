@@ -10,17 +10,16 @@ namespace dihaptic::gui {
 namespace {
 
 std::string page_of(const std::string& name) {
-    if (name == "index") {
+    if (name == "index")
         return in_or_above_program(
-            {"docs/html/index.html", "share/doc/dihaptic/manual/index.html", "README.md"});
-    }
-    std::string page;
+            {"docs/html/index.html", "share/doc/dihaptic/manual/index.html"});
     for (const std::string part : {"reference/", "how-to/"}) {
-        page = in_or_above_program({"docs/html/" + part + name + ".html",
-                                    "share/doc/dihaptic/manual/" + part + name + ".html"});
+        const std::string page =
+            in_or_above_program({"docs/html/" + part + name + ".html",
+                                 "share/doc/dihaptic/manual/" + part + name + ".html"});
         if (!page.empty()) return page;
     }
-    return in_or_above_program({"docs/" + name + ".md"});
+    return "";
 }
 
 }  // namespace
@@ -29,8 +28,9 @@ QString show_help_page(const QString& name) {
     const std::string page = page_of(name.toStdString());
     if (page.empty()) {
         return QCoreApplication::translate("HelpPage",
-                                           "The manual is missing: install the package "
-                                           "dihaptic-doc, or make the manual with ./dev docs.");
+                                           "The manual is not on this computer yet.\n\nInstall the "
+                                           "package dihaptic-doc or, in a folder with Dihaptic's "
+                                           "sources, make it with ./dev docs.");
     }
     const QString file = QString::fromStdString(page);
     if (QDesktopServices::openUrl(QUrl::fromLocalFile(file))) return "";

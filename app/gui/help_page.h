@@ -1,5 +1,5 @@
-// Shows pages of the manual in the browser: the pages of the package dihaptic-doc, those built by
-// ./dev docs, or the source texts.
+// Shows pages of the manual in the browser: the pages of the package dihaptic-doc, or those built
+// by ./dev docs.
 #pragma once
 
 #include <QString>

@@ -7,12 +7,24 @@
 #include <QFileInfo>
 #include <QMenu>
 #include <QMessageBox>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "session_player.h"
 #include "sessions_dialog.h"
 
 namespace dihaptic::gui {
+namespace {
+
+QString compose_help() {
+    return QObject::tr(
+        "Click a body, then drag it.   Shift: up and down.   Ctrl: turn.\n"
+        "Arrows, Page Up, Page Down: 1 mm; with Shift, 10 mm.");
+}
+
+}  // namespace
 
 void OperatorWindow::connect_files() {
     connect(composer_, &Composer::edited, this, &OperatorWindow::reload);
@@ -30,6 +42,13 @@ void OperatorWindow::connect_files() {
     connect(start_page_, &StartPage::chosen, this, &OperatorWindow::open);
     connect(start_page_, &StartPage::open_requested, this, &OperatorWindow::choose_file);
     connect(start_page_, &StartPage::sessions_requested, this, &OperatorWindow::choose_session);
+    connect(start_page_, &StartPage::new_study_requested, this,
+            [this] { make_new(NewFiles::Kind::study); });
+    connect(new_files_, &NewFiles::made, this, &OperatorWindow::open);
+    connect(new_files_, &NewFiles::failed, this, [this](const QString& why) {
+        log(why, true);
+        QMessageBox::warning(this, tr("New"), why);
+    });
     connect(calibrator_, &Calibrator::logged, this, &OperatorWindow::log);
     connect(calibrator_, &Calibrator::stored, this, &OperatorWindow::reload);
 }
@@ -42,6 +61,15 @@ void OperatorWindow::choose_file() {
     const QString file = QFileDialog::getOpenFileName(this, tr("Open a scene or an experiment"),
                                                       start, tr("Scenes and experiments (*.yaml)"));
     if (!file.isEmpty()) open(file);
+}
+
+/// Offers the folder of the open file or, for a study, the folder that contains its folder.
+void OperatorWindow::make_new(NewFiles::Kind kind) {
+    control_.forget_start();  // no session must start while the dialog is open
+    QDir folder =
+        control_.file().isEmpty() ? QDir::home() : QFileInfo(control_.file()).absoluteDir();
+    if (kind == NewFiles::Kind::study && !control_.file().isEmpty()) folder.cdUp();
+    new_files_->make(kind, folder.path());
 }
 
 void OperatorWindow::save_as() {
@@ -173,12 +201,36 @@ void OperatorWindow::move_body(const std::string& name, const BodyWay& way, bool
     }
 }
 
+void OperatorWindow::show_drag(size_t body, const Pose& X_WB) {
+    const auto in_mm = [](double length) { return QString::number(1e3 * length, 'f', 1); };
+    const double turn = std::round(angles_xyz(X_WB.R).z() * 1800 / std::numbers::pi) / 10;
+    QString text = tr("%1: x %2, y %3, z %4 mm")
+                       .arg(QString::fromStdString(control_.plan()->scene.bodies[body].name),
+                            in_mm(X_WB.p.x()), in_mm(X_WB.p.y()), in_mm(X_WB.p.z()));
+    if (turn != 0)
+        text += tr(", turned by %1 degrees about the vertical").arg(QString::number(turn, 'f', 1));
+    scene_->set_help(text);
+    composer_->tell(text);
+}
+
+void OperatorWindow::show_compose_help() {
+    if (control_.runner().running()) return;  // other help is shown then
+    const auto& plan = control_.plan();
+    const auto is_here = [this](const scene::Body& body) {
+        return body.place.file == control_.file().toStdString();
+    };
+    const bool composes =
+        plan && compose_dock_->isVisible() && std::ranges::any_of(plan->scene.bodies, is_here);
+    scene_->set_help(composes ? compose_help() : "");
+}
+
 void OperatorWindow::step_body(const Vec3& step) {
     mark_picked();  // the cursor may have moved meanwhile
     move_body(composer_->body(), {step, 0}, false);
 }
 
 void OperatorWindow::mark_picked() {
+    show_compose_help();
     const auto& plan = control_.plan();
     const bool composes = plan && compose_dock_->isVisible() && !control_.runner().running();
     const int body = composes ? plan->scene.find(composer_->body()) : -1;
@@ -195,7 +247,7 @@ void OperatorWindow::show_opened(const Opened& opened) {
         camera_menu_->addAction(QString::fromStdString(camera.name), this,
                                 [this, name = camera.name] { scene_->set_camera(name); });
     }
-    setWindowTitle(QString::fromStdString(plan.title) + " - Dihaptic");
+    setWindowTitle(QString::fromStdString(plan.title) + "[*] - Dihaptic");
 }
 
 void OperatorWindow::choose_folder() {

@@ -1,13 +1,14 @@
 // The operator's window: its menus and saved settings.
 #include "operator_window.h"
 
-#include <QCoreApplication>
+#include <QApplication>
 #include <QDesktopServices>
 #include <QDir>
 #include <QDockWidget>
 #include <QFileInfo>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QMetaMethod>
 #include <QScreen>
 #include <QSettings>
 #include <QUrl>
@@ -22,48 +23,118 @@ namespace dihaptic::gui {
 void OperatorWindow::make_file_menu() {
     QMenu* file = menuBar()->addMenu(tr("&File"));
     using Act = SessionControl::Act;
+    add_new_files(*file->addMenu(tr("&New")));
     enable(file->addAction(tr("&Open ..."), QKeySequence::Open, this, &OperatorWindow::choose_file),
            Act::open);
-    enable(file->addAction(tr("S&tart page"), this, &OperatorWindow::show_start_page), Act::open);
     QMenu* recent = file->addMenu(tr("Open &recent"));
     connect(recent, &QMenu::aboutToShow, this, [this, recent] { fill_recent(*recent); });
-    file->addAction(tr("&Edit"), QKeySequence("Ctrl+E"), this, [this] {
-        if (modes_->mode() == Mode::look) modes_->set(Mode::prepare);
-        compose_dock_->show();
-        composer_->take_focus();
+    enable(file->addAction(tr("S&tart page"), this, &OperatorWindow::show_start_page), Act::open);
+    file->addSeparator();
+    QAction* save = file->addAction(tr("Sa&ve"), QKeySequence::Save, composer_, &Composer::save);
+    save->setEnabled(false);
+    connect(composer_, &Composer::modified, save, &QAction::setEnabled);
+    connect(composer_, &Composer::modified, this, &QWidget::setWindowModified);
+    QAction* save_as = file->addAction(tr("Save &as ..."), QKeySequence("Ctrl+Shift+S"), this,
+                                       &OperatorWindow::save_as);
+    connect(&control_, &SessionControl::changed, save_as, [this, save_as] {
+        save_as->setEnabled(!control_.file().isEmpty() && control_.may(Act::open));
     });
-    const auto add = [&](const QString& name, QKeySequence::StandardKey key, auto what,
-                         auto possible) {
-        QAction* action = file->addAction(name, key, composer_, what);
-        action->setEnabled(false);
-        connect(composer_, possible, action, &QAction::setEnabled);
+    file->addSeparator();
+    add_recordings(*file);
+    file->addSeparator();
+    file->addAction(tr("&Quit"), QKeySequence::Quit, this, &QWidget::close);
+}
+
+/// Adds the entries that make files.
+void OperatorWindow::add_new_files(QMenu& menu) {
+    using Kind = NewFiles::Kind;
+    const auto add = [&](const QString& name, Kind kind) {
+        enable(menu.addAction(name, this, [this, kind] { make_new(kind); }),
+               SessionControl::Act::open);
     };
-    add(tr("&Undo"), QKeySequence::Undo, &Composer::undo, &Composer::undo_available);
-    add(tr("Re&do"), QKeySequence::Redo, &Composer::redo, &Composer::redo_available);
-    add(tr("Sa&ve"), QKeySequence::Save, &Composer::save, &Composer::modified);
-    file->addAction(tr("Save &as ..."), QKeySequence("Ctrl+Shift+S"), this,
-                    &OperatorWindow::save_as);
-    file->addAction(tr("Recorded &sessions ..."), QKeySequence("Ctrl+Shift+O"), this,
-                    &OperatorWindow::choose_session);
-    file->addAction(tr("&Folder of sessions"), this, [this] {
-        QDir().mkpath(control_.out());
-        QDesktopServices::openUrl(QUrl::fromLocalFile(QDir(control_.out()).absolutePath()));
-    });
-    file->addAction(tr("&Where sessions go ..."), this, &OperatorWindow::choose_folder);
+    add(tr("&Scene ..."), Kind::scene);
+    add(tr("&Experiment ..."), Kind::experiment);
+    add(tr("S&tudy ..."), Kind::study);
+}
+
+/// Adds the entries for recorded sessions.
+void OperatorWindow::add_recordings(QMenu& menu) {
+    menu.addAction(tr("Recorded &sessions ..."), QKeySequence("Ctrl+Shift+O"), this,
+                   &OperatorWindow::choose_session);
     auto* reporter = new Reporter(this);
     connect(reporter, &Reporter::failed, this, [this](const QString& why) { log(why, true); });
     connect(reporter, &Reporter::written, this, [this](const QString& page) {
         log(tr("report: %1").arg(page));
         QDesktopServices::openUrl(QUrl::fromLocalFile(QFileInfo(page).absoluteFilePath()));
     });
-    file->addAction(tr("Re&port of the last session"), QKeySequence("Ctrl+R"), this,
-                    [this, reporter] {
-                        if (!control_.recorded().isEmpty())
-                            return reporter->write(control_.recorded());
-                        log(tr("There is no session of this file to report yet."));
-                    });
-    file->addSeparator();
-    file->addAction(tr("&Quit"), QKeySequence::Quit, this, &QWidget::close);
+    menu.addAction(tr("Re&port of the last session"), QKeySequence("Ctrl+R"), this,
+                   [this, reporter] {
+                       if (!control_.recorded().isEmpty())
+                           return reporter->write(control_.recorded());
+                       log(tr("There is no session of this file to report yet."));
+                   });
+    menu.addAction(tr("&Folder of sessions"), this, [this] {
+        QDir().mkpath(control_.out());
+        QDesktopServices::openUrl(QUrl::fromLocalFile(QDir(control_.out()).absolutePath()));
+    });
+    menu.addAction(tr("&Where sessions go ..."), this, &OperatorWindow::choose_folder);
+}
+
+void OperatorWindow::make_edit_menu() {
+    QMenu* edit = menuBar()->addMenu(tr("&Edit"));
+    const auto add = [&](const QString& name, QKeySequence::StandardKey key, auto what,
+                         auto possible) {
+        QAction* action = edit->addAction(name, key, composer_, what);
+        action->setEnabled(false);
+        connect(composer_, possible, action, &QAction::setEnabled);
+    };
+    add(tr("&Undo"), QKeySequence::Undo, &Composer::undo, &Composer::undo_available);
+    add(tr("&Redo"), QKeySequence::Redo, &Composer::redo, &Composer::redo_available);
+    edit->addSeparator();
+    // every field for text has these slots
+    const auto add_for_field = [&](const QString& name, QKeySequence::StandardKey key,
+                                   const char* slot) {
+        edit->addAction(name, key, this, [slot] {
+            QWidget* const field = QApplication::focusWidget();
+            if (field == nullptr) return;
+            const int method = field->metaObject()->indexOfSlot((QByteArray(slot) + "()").data());
+            if (method >= 0) field->metaObject()->method(method).invoke(field);
+        });
+    };
+    add_for_field(tr("Cu&t"), QKeySequence::Cut, "cut");
+    add_for_field(tr("&Copy"), QKeySequence::Copy, "copy");
+    add_for_field(tr("&Paste"), QKeySequence::Paste, "paste");
+    add_for_field(tr("Select &all"), QKeySequence::SelectAll, "selectAll");
+    edit->addSeparator();
+    edit->addAction(tr("&Find ..."), QKeySequence::Find, this, &OperatorWindow::find);
+    edit->addAction(tr("Find &next"), QKeySequence("Ctrl+G"), composer_, &Composer::find_next);
+    edit->addAction(tr("Find pre&vious"), QKeySequence("Ctrl+Shift+G"), composer_,
+                    &Composer::find_previous);
+    edit->addSeparator();
+    edit->addAction(tr("File's t&ext"), QKeySequence("Ctrl+E"), this,
+                    &OperatorWindow::show_or_hide_text);
+}
+
+void OperatorWindow::find() {
+    if (centre_->currentWidget() == start_page_) return start_page_->find();
+    show_text();
+    composer_->find();
+}
+
+/// Shows the text or, if the user is typing in it, hides it.
+void OperatorWindow::show_or_hide_text() {
+    if (compose_dock_->isVisible() && composer_->has_focus()) {
+        compose_dock_->hide();
+        return scene_->setFocus();
+    }
+    show_text();
+    composer_->take_focus();
+}
+
+/// Shows the text, for which recorded sessions give way.
+void OperatorWindow::show_text() {
+    if (modes_->mode() == Mode::look) modes_->set(Mode::prepare);
+    compose_dock_->show();
 }
 
 void OperatorWindow::enable(QAction* action, SessionControl::Act act) {
@@ -191,7 +262,12 @@ void OperatorWindow::restore() {
 
 void OperatorWindow::show_page_of_docs(const QString& name) {
     const QString why = show_help_page(name);
-    if (!why.isEmpty()) log(why, true);
+    if (why.isEmpty()) return;
+    auto* box =
+        new QMessageBox(QMessageBox::Information, tr("Manual"), why, QMessageBox::Close, this);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setTextInteractionFlags(Qt::TextSelectableByMouse);  // contains a command to type
+    box->open();
 }
 
 void OperatorWindow::fill_recent(QMenu& menu) {

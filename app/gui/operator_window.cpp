@@ -42,18 +42,20 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
       participants_(*this),
       calibrator_(new Calibrator(this)),
       modes_(new Modes(this)),
+      new_files_(new NewFiles(this)),
       centre_(new QStackedWidget),
       start_page_(new StartPage),
       scene_(new SceneWidget),
       session_(new SessionPanel(control_)),
       composer_(new Composer),
       log_(new LogView) {
-    setWindowTitle("Dihaptic");
+    setWindowTitle("Dihaptic[*]");
     centre_->addWidget(scene_);
     centre_->addWidget(start_page_);
     setCentralWidget(centre_);
     make_docks();
     make_file_menu();
+    make_edit_menu();
     make_session_menu();
     make_view_menu();
     make_help_menu();
@@ -174,6 +176,7 @@ void OperatorWindow::connect_scene() {
     connect(scene_, &SceneWidget::dragged, this, [this](size_t body, const BodyWay& way) {
         move_body(control_.plan()->scene.bodies[body].name, way, true);
     });
+    connect(scene_, &SceneWidget::dragging, this, &OperatorWindow::show_drag);
     connect(scene_, &SceneWidget::stepped, this, &OperatorWindow::step_body);
     connect(scene_, &SceneWidget::hand_moved, this, [this] { move_hand(0); });
     connect(scene_, &SceneWidget::camera_moved, this, &OperatorWindow::turn_workspaces);

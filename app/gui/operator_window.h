@@ -14,6 +14,7 @@
 #include "composer.h"
 #include "log_view.h"
 #include "modes.h"
+#include "new_files.h"
 #include "participant_dialog.h"
 #include "participant_windows.h"
 #include "session_control.h"
@@ -63,6 +64,12 @@ class OperatorWindow : public QMainWindow {
                         TuningPanel* tuning);
     void connect_mirror(ParticipantMirror* mirror);
     void make_file_menu();
+    void add_new_files(QMenu& menu);
+    void add_recordings(QMenu& menu);
+    void make_edit_menu();
+    void find();
+    void show_or_hide_text();
+    void show_text();
     void make_session_menu();
     /// Keeps an action enabled while the session's state allows `act`.
     void enable(QAction* action, SessionControl::Act act);
@@ -74,6 +81,7 @@ class OperatorWindow : public QMainWindow {
     void connect_files();
     void restore();
     void choose_file();
+    void make_new(NewFiles::Kind kind);
     void save_as();
     void fill_recent(QMenu& menu);
     void remember(const QString& file);
@@ -93,6 +101,10 @@ class OperatorWindow : public QMainWindow {
     void move_body(const std::string& name, const BodyWay& way, bool shown);
     /// Moves the body whose definition contains the text cursor.
     void step_body(const Vec3& step);
+    /// Shows the numbers of a body that is being dragged.
+    void show_drag(size_t body, const Pose& X_WB);
+    /// Shows how bodies are moved, if they can be moved now.
+    void show_compose_help();
     /// Marks the body whose definition contains the text cursor by a box.
     void mark_picked();
     void show_opened(const Opened& opened);
@@ -145,6 +157,7 @@ class OperatorWindow : public QMainWindow {
     ParticipantWindows participants_;
     Calibrator* calibrator_;
     Modes* modes_;
+    NewFiles* new_files_;
     QStackedWidget* centre_;
     StartPage* start_page_;
     SceneWidget* scene_;

@@ -382,6 +382,7 @@ void SceneWidget::drag(const QPointF& way, Qt::KeyboardModifiers keys) {
     if (drag_->way().none() && (pointer_ - pressed_).manhattanLength() <= kStill) return;
     drag_->follow(ray_to(pointer_), way, keys);
     frame_.bodies[*picked_].X_WB = drag_->way().of(X_WB_dragged_);
+    Q_EMIT dragging(*picked_, frame_.bodies[*picked_].X_WB);
     update();
 }
 

@@ -104,6 +104,8 @@ class SceneWidget : public QOpenGLWidget {
     void camera_moved();
     /// A body of the scene was clicked.
     void picked(size_t body);
+    /// The picked body is being dragged, and is shown in this pose at the moment.
+    void dragging(size_t body, const dihaptic::Pose& X_WB);
     /// The picked body was dragged and is shown at its new position.
     void dragged(size_t body, const dihaptic::gui::BodyWay& way);
     /// A key that moves the picked body by a step was pressed [m].

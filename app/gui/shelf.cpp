@@ -54,14 +54,14 @@ void Shelf::read(const QStringList& files) {
             request.participant = "S01";
             request.simulate = true;
             request.stop = stop;
-            QString title = QFileInfo(file).completeBaseName();
+            QString title;
             QString length;
             try {
                 const session::Plan plan = session::make_plan(request);
-                if (!plan.title.empty()) title = QString::fromStdString(plan.title);
+                title = QString::fromStdString(plan.title);
                 length = length_of(plan);
             } catch (const std::exception&) {
-                // the faults are reported when the file is opened
+                title = tr("Has a fault, which is reported when the file is opened.");
             }
             QMetaObject::invokeMethod(
                 this, [=, this] { Q_EMIT told(file, title, length); }, Qt::QueuedConnection);

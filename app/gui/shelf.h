@@ -26,8 +26,9 @@ class Shelf : public QObject {
     static QString picture_of(const QString& file);
 
   Q_SIGNALS:
-    /// `length`: duration of the file's session, e.g. "45 trials" or "8 s"; empty if the user
-    /// decides when it ends, or if the file has an error.
+    /// `title`: title of the file, or what to say instead if the file has an error. `length`:
+    /// duration of the file's session, e.g. "45 trials" or "8 s"; empty if the user decides when it
+    /// ends, or if the file has an error.
     void told(const QString& file, const QString& title, const QString& length);
     void drawn(const QString& file, const QString& picture);
 

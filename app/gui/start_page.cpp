@@ -3,20 +3,19 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QPushButton>
 #include <QSettings>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "base/installed.h"
 #include "edited_file.h"
+#include "tile.h"
 
 namespace dihaptic::gui {
 namespace {
 
-constexpr QSize kTileSize{224, 140};
-constexpr QSize kItem{240, 200};  // size of an item: a picture with title and duration below it
-constexpr int kFile = Qt::UserRole;
+constexpr int kSearchWidth = 320;  // [px]
 
 /// Files for a first session: a scene to play with, followed by a few files with trials.
 const QStringList kFirst{"scenes/block-on-table.yaml", "experiments/first-trials.yaml",
@@ -30,87 +29,178 @@ QStringList files_in(const QString& folder) {
 }
 
 /// The comment at the beginning of a file, up to the first line that is an empty comment or not a
-/// comment.
+/// comment. The line that tells editors the file's schema is left out.
 QString head_of(const QString& file) {
     QStringList lines;
     for (const QByteArray& bytes : bytes_of(file).value_or(QByteArray()).split('\n')) {
         const QString line = QString::fromUtf8(bytes).trimmed();
+        if (line.startsWith("# yaml-language-server:")) continue;
         if (!line.startsWith("# ")) break;
         lines += line.mid(2);
     }
     return lines.join(" ");
 }
 
+/// A shipped file has the name that is used on the command line; any other, also that of its
+/// folder, because the experiments of most studies have the same name.
+QString name_of(const QString& file) {
+    const QFileInfo info(file);
+    const QFileInfo above(info.absolutePath());
+    const bool shipped = QFileInfo(above.absolutePath()) == QFileInfo(StartPage::shipped_folder());
+    return shipped ? info.completeBaseName() : above.fileName() + "/" + info.completeBaseName();
+}
+
+/// Whether the text contains each of the words.
+bool contains_all(const QString& text, const QStringList& words) {
+    return std::ranges::all_of(
+        words, [&](const QString& word) { return text.contains(word, Qt::CaseInsensitive); });
+}
+
 }  // namespace
 
-StartPage::StartPage(QWidget* parent) : QWidget(parent), tabs_(new QTabWidget) {
-    auto* title =
-        new QLabel(tr("<h1>Dihaptic</h1><p>Choose a file to start with. Without devices, the mouse "
-                      "moves the hand.</p>"));
-    auto* open = new QPushButton(tr("&Open another file ..."));
-    auto* sessions = new QPushButton(tr("&Recorded sessions ..."));
+StartPage::StartPage(QWidget* parent)
+    : QWidget(parent), words_(new QLineEdit), shown_(new QStackedWidget), tabs_(new QTabWidget) {
     begin_ = add_list(tr("&Begin"));
-    experiments_ = add_list(tr("&Experiments"));
+    experiments_ = add_list(tr("E&xperiments"));
     scenes_ = add_list(tr("S&cenes"));
     recent_ = add_list(tr("Rece&nt"));
-    auto* buttons = new QHBoxLayout;
-    buttons->addWidget(open);
-    buttons->addWidget(sessions);
-    buttons->addStretch(1);
+    found_ = make_list(tr("Found"));
+    none_found_ = new QLabel;
+    none_found_->setAlignment(Qt::AlignCenter);
+    none_found_->setWordWrap(true);
+    for (QWidget* widget : std::initializer_list<QWidget*>{tabs_, found_, none_found_})
+        shown_->addWidget(widget);
     auto* layout = new QVBoxLayout(this);
-    layout->addWidget(title);
-    layout->addWidget(tabs_, 1);
-    layout->addLayout(buttons);
-    connect(open, &QPushButton::clicked, this, &StartPage::open_requested);
-    connect(sessions, &QPushButton::clicked, this, &StartPage::sessions_requested);
+    layout->addWidget(make_heading());
+    layout->addWidget(shown_, 1);
+    layout->addWidget(make_buttons());
+    setTabOrder(words_, tabs_);
+    connect(words_, &QLineEdit::textChanged, this, &StartPage::search);
+    connect(words_, &QLineEdit::returnPressed, this, [this] {
+        if (shown_->currentWidget() == found_)
+            Q_EMIT chosen(found_->currentItem()->data(TileRole::file).toString());
+    });
     connect(&shelf_, &Shelf::told, this,
-            [this](const QString& file, const QString& name, const QString& length) {
-                each(file, [&](QListWidgetItem& item) {
-                    item.setText(length.isEmpty() ? name : name + "\n" + length);
-                });
+            [this](const QString& file, const QString& title, const QString& length) {
+                each(file, [&](QListWidgetItem& item) { show_file(item, title, length); });
             });
     connect(&shelf_, &Shelf::drawn, this, [this](const QString& file, const QString& picture) {
-        const QIcon icon(picture);
-        each(file, [&](QListWidgetItem& item) { item.setIcon(icon); });
+        const QPixmap drawn = tile_picture(picture, devicePixelRatioF());
+        if (drawn.isNull()) return;
+        each(file, [&](QListWidgetItem& item) { item.setData(Qt::DecorationRole, drawn); });
     });
 }
 
-QListWidget* StartPage::add_list(const QString& title) {
+QWidget* StartPage::make_heading() {
+    auto* title = new QLabel(
+        tr("<h1>Dihaptic</h1><p>Click a picture to open it, or choose one with the arrow keys and "
+           "press Enter. Without devices, the mouse moves the hand.</p>"));
+    title->setWordWrap(true);
+    words_->setPlaceholderText(tr("Search names and descriptions (Ctrl+F)"));
+    words_->setAccessibleName(tr("Search"));
+    words_->setClearButtonEnabled(true);
+    words_->setFixedWidth(kSearchWidth);
+    auto* heading = new QWidget;
+    auto* layout = new QHBoxLayout(heading);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(title, 1);
+    layout->addWidget(words_, 0, Qt::AlignBottom);
+    return heading;
+}
+
+QWidget* StartPage::make_buttons() {
+    auto* row = new QWidget;
+    auto* layout = new QHBoxLayout(row);
+    layout->setContentsMargins(0, 0, 0, 0);
+    const auto add_button = [&](const QString& text, const QString& what, auto wanted) {
+        auto* button = new QPushButton(text);
+        button->setToolTip(what);
+        connect(button, &QPushButton::clicked, this, wanted);
+        layout->addWidget(button);
+    };
+    add_button(tr("Ne&w study ..."),
+               tr("Makes a folder with a scene, a rig and an experiment, to be changed into yours"),
+               &StartPage::new_study_requested);
+    add_button(tr("&Open another file ..."), tr("Any scene or experiment on this computer"),
+               &StartPage::open_requested);
+    add_button(tr("&Recorded sessions ..."), tr("Looks at a session that was recorded"),
+               &StartPage::sessions_requested);
+    layout->addStretch(1);
+    return row;
+}
+
+QListWidget* StartPage::make_list(const QString& title) {
     auto* list = new QListWidget;
     list->setAccessibleName(QString(title).remove('&'));
     list->setViewMode(QListView::IconMode);
-    list->setIconSize(kTileSize);
-    list->setGridSize(kItem);
+    list->setItemDelegate(new TileDelegate(list));
     list->setResizeMode(QListView::Adjust);
     list->setMovement(QListView::Static);
-    list->setWordWrap(true);
-    connect(list, &QListWidget::itemActivated, this,
-            [this](const QListWidgetItem* item) { Q_EMIT chosen(item->data(kFile).toString()); });
+    list->setUniformItemSizes(true);
+    list->setSpacing(2);
+    list->setMouseTracking(true);  // a tile under the pointer has a faint frame
+    connect(list, &QListWidget::itemActivated, this, [this](const QListWidgetItem* item) {
+        Q_EMIT chosen(item->data(TileRole::file).toString());
+    });
     // a single click opens the file, as on a web page
-    connect(list, &QListWidget::itemClicked, this,
-            [this](const QListWidgetItem* item) { Q_EMIT chosen(item->data(kFile).toString()); });
+    connect(list, &QListWidget::itemClicked, this, [this](const QListWidgetItem* item) {
+        Q_EMIT chosen(item->data(TileRole::file).toString());
+    });
+    return list;
+}
+
+QListWidget* StartPage::add_list(const QString& title) {
+    QListWidget* list = make_list(title);
     tabs_->addTab(list, title);
     return list;
 }
 
 void StartPage::add(QListWidget* list, const QStringList& files) {
-    QPixmap blank(kTileSize);
-    blank.fill(palette().color(QPalette::Mid));
+    const QPixmap none = sketch(palette(), devicePixelRatioF());
     for (const QString& file : files) {
-        auto* item = new QListWidgetItem(QIcon(blank), QFileInfo(file).completeBaseName(), list);
-        item->setData(kFile, file);
-        item->setSizeHint(kItem - QSize(4, 4));
-        item->setToolTip(QString("<p>%1</p><p><i>%2</i></p>")
-                             .arg(head_of(file).toHtmlEscaped(), file.toHtmlEscaped()));
+        auto* item = new QListWidgetItem(list);
+        const QString head = head_of(file);
+        item->setData(TileRole::file, file);
+        item->setData(TileRole::name, name_of(file));
+        item->setData(TileRole::head, head);
+        item->setData(Qt::DecorationRole, none);
+        item->setToolTip(
+            QString("<p>%1</p><p><i>%2</i></p>").arg(head.toHtmlEscaped(), file.toHtmlEscaped()));
+        show_file(*item, "", "");
     }
     if (list->count() > 0) list->setCurrentRow(0);
 }
 
+void StartPage::show_file(QListWidgetItem& item, const QString& title, const QString& length) {
+    const QString name = item.data(TileRole::name).toString();
+    item.setData(TileRole::line, title);
+    item.setData(TileRole::length, length);
+    QStringList words{name, title, length};
+    words.removeAll(QString());
+    item.setText(words.join(", "));
+}
+
+void StartPage::search(const QString& typed) {
+    const QStringList words = typed.split(' ', Qt::SkipEmptyParts);
+    if (words.isEmpty()) return shown_->setCurrentWidget(tabs_);
+    int first = -1;
+    for (int i = 0; i < found_->count(); ++i) {
+        const QListWidgetItem& item = *found_->item(i);
+        const bool fits = contains_all(item.text() + item.data(TileRole::head).toString(), words);
+        found_->setRowHidden(i, !fits);
+        if (fits && first < 0) first = i;
+    }
+    none_found_->setText(tr("No scene or experiment here contains \"%1\".").arg(typed.trimmed()));
+    if (first < 0) return shown_->setCurrentWidget(none_found_);
+    found_->setCurrentRow(first);
+    shown_->setCurrentWidget(found_);
+}
+
 template <class F>
 void StartPage::each(const QString& file, const F& f) {
-    for (QListWidget* list : {begin_, experiments_, scenes_, recent_}) {
+    for (QListWidget* list : lists()) {
         for (int i = 0; i < list->count(); ++i) {
-            if (list->item(i)->data(kFile).toString() == file) f(*list->item(i));
+            if (list->item(i)->data(TileRole::file).toString() == file) f(*list->item(i));
         }
     }
 }
@@ -129,7 +219,8 @@ QStringList StartPage::recent_files() {
 }
 
 void StartPage::fill() {
-    for (QListWidget* list : {begin_, experiments_, scenes_, recent_}) list->clear();
+    words_->clear();
+    for (QListWidget* list : lists()) list->clear();
     const QString shipped = shipped_folder();
     QStringList first;
     for (const QString& file : kFirst) {
@@ -146,6 +237,7 @@ void StartPage::fill() {
     tabs_->setTabEnabled(tabs_->indexOf(recent_), !recent.isEmpty());
     QStringList all = first + recent + experiments + scenes;
     all.removeDuplicates();
+    add(found_, all);
     shelf_.read(all);
     tabs_->currentWidget()->setFocus();
 }

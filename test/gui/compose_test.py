@@ -20,7 +20,7 @@ class Compose(Window):
         before = title()
         self.key("ctrl+e", "ctrl+Home", "Down", "End")
         self.type(", typed")  # at the end of its title
-        self.wait("the title", lambda: title() == before.replace(" - Dihaptic", ", typed - Dihaptic"))
+        self.wait("the title", lambda: title() == before.replace(" - Dihaptic", ", typed* - Dihaptic"))
         self.screenshot("compose-typed")
         self.assertEqual(self.text(), SCENE)
         self.assertTrue(self.drafts())

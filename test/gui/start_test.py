@@ -1,11 +1,14 @@
 """What the window shows when no file is named: pictures of what there is to begin with."""
 import glob
+import os
+import pathlib
 import subprocess
 import time
 import unittest
 
 import window
 from window import PROGRAM, Window, patient, starts_programs
+import soak
 
 
 @starts_programs
@@ -45,6 +48,54 @@ class StartPage(Window):
         time.sleep(1)
         self.screenshot("start-recent")
         self.quit()
+
+    def test_finds_what_is_searched_by_words_of_its_description(self):
+        self.open_without_a_file()
+        self.key("ctrl+f")
+        self.type("carried wall")
+        self.screenshot("start-found")
+        self.key("Return")
+        self.wait("the experiment", lambda: self.title() == "A block is carried over a wall - Dihaptic")
+        self.quit()
+
+    @soak.alone
+    def test_has_a_picture_of_every_shipped_file(self):
+        shipped = glob.glob("scenes/*.yaml") + glob.glob("experiments/*.yaml")
+        self.open_without_a_file()
+        self.wait("pictures", lambda: len(self.pictures()) == len(shipped), 240)
+        self.key("alt+x")
+        time.sleep(1)
+        self.screenshot("start-experiments")
+        self.quit()
+
+    def test_makes_a_study_and_opens_its_experiment(self):
+        self.open_without_a_file()
+        self.key("alt+w")
+        self.answer_with_path("^New study", self.folder.name + "/my-study")
+        self.wait("the experiment", lambda: self.title() == "Adaptation to a rotated display - Dihaptic")
+        self.assertEqual(sorted(os.listdir(self.folder.name + "/my-study")),
+                         ["README.md", "experiment.yaml", "rig.yaml", "scene.yaml"])
+        self.screenshot("start-study")
+        self.quit()
+
+    def test_says_why_a_study_cannot_be_made(self):
+        pathlib.Path(self.folder.name, "old").write_text("mine")
+        self.open_without_a_file()
+        self.key("alt+w")
+        self.answer_with_path("^New study", self.folder.name + "/old")
+        self.answer("^New$", "Return")
+        self.assertEqual(pathlib.Path(self.folder.name, "old").read_text(), "mine")
+        self.quit()
+
+    def answer_with_path(self, title, path):
+        dialog = self.wait(title, lambda: self.dialogs(title))[-1]
+        self.xdotool("windowfocus", dialog)
+        time.sleep(0.5)
+        self.key("ctrl+a")
+        self.type(path)
+        self.key("Return")
+        self.wait("the dialog's end", lambda: not self.dialogs(title))
+        self.xdotool("windowfocus", self.name)
 
     def test_leaves_the_computer_to_a_session(self):
         self.open_without_a_file()
