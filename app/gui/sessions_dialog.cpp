@@ -4,6 +4,7 @@
 #include <QDir>
 #include <QHeaderView>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QTreeWidget>
@@ -41,6 +42,11 @@ QString counted_in(const QString& file, QString (*count)(const rows::RowFile<Row
     } catch (const Error&) {
         return "?";
     }
+}
+
+/// The name of an enumerator, in words.
+QString in_words(std::string_view name) {
+    return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())).replace('_', ' ');
 }
 
 /// Number of trial attempts in a session, as text.
@@ -94,22 +100,31 @@ QString note_of(const QString& session) {
 }  // namespace
 
 SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
-    : QDialog(parent), list_(new QTreeWidget) {
+    : QDialog(parent),
+      where_(new QLabel),
+      participant_(new QLineEdit),
+      list_(new QTreeWidget),
+      folder_(QDir(folder).absolutePath()) {
     setAttribute(Qt::WA_DeleteOnClose);
     setWindowTitle(tr("Recorded sessions"));
     list_->setAccessibleName(tr("Sessions"));
     list_->setRootIsDecorated(false);
     list_->setSelectionMode(QAbstractItemView::ExtendedSelection);
-    list_->setHeaderLabels({tr("started"), tr("title"), tr("participant"), tr("moved by"),
-                            tr("state"), tr("time"), tr("trials"), tr("whole lifts"), tr("note"),
-                            tr("folder")});
+    list_->setHeaderLabels({tr("started"), tr("title"), tr("participant"), tr("hand moved by"),
+                            tr("state"), tr("duration"), tr("trials"), tr("complete lifts"),
+                            tr("note"), tr("folder")});
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Open | QDialogButtonBox::Close);
     auto* layout = new QVBoxLayout(this);
-    auto* where =
-        new QLabel(tr("Sessions in %1. Select two (Ctrl + click) to show them side by side.")
-                       .arg(QDir(folder).absolutePath()));
-    where->setWordWrap(true);
-    layout->addWidget(where);
+    where_->setWordWrap(true);
+    participant_->setPlaceholderText(tr("Only this participant, e.g. S07"));
+    participant_->setAccessibleName(tr("Participant"));
+    participant_->setClearButtonEnabled(true);
+    connect(participant_, &QLineEdit::textChanged, this, [this] {
+        for (int i = 0; i < list_->topLevelItemCount(); ++i) filter(*list_->topLevelItem(i));
+        show_whether_empty();
+    });
+    layout->addWidget(where_);
+    layout->addWidget(participant_);
     layout->addWidget(list_, 1);
     layout->addWidget(buttons);
     note_ = buttons->addButton(tr("&Note ..."), QDialogButtonBox::ActionRole);
@@ -132,7 +147,10 @@ SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
 /// Adds the next session to the list. Only one is added per call, because a running session
 /// requires a responsive window.
 void SessionsDialog::fill_one() {
-    if (waiting_.isEmpty()) return filling_.stop();
+    if (waiting_.isEmpty()) {
+        show_whether_empty();
+        return filling_.stop();
+    }
     const QFileInfo entry = waiting_.takeFirst();
     const QString path = entry.filePath();
     recording::SessionInfo info;
@@ -140,7 +158,7 @@ void SessionsDialog::fill_one() {
     try {
         const auto session = recording::SessionFolder::open(path.toStdString());
         info = session.read_info();
-        state = QString::fromLatin1(enum_name(info.state).data());
+        state = in_words(enum_name(info.state));
         time = time_of(session, info);
         changed = changes_of(session, info);
         if (!changed.isEmpty()) state += tr(", changed since");
@@ -150,17 +168,42 @@ void SessionsDialog::fill_one() {
     auto* item = new QTreeWidgetItem(
         list_, {QString::fromStdString(info.started).left(16).replace('T', ' '),
                 QString::fromStdString(info.title), QString::fromStdString(info.participant.id),
-                QString::fromStdString(info.moved_by.name()), state, time, trials_in(path),
-                lifts_in(path), note_of(path), entry.fileName()});
+                in_words(info.moved_by.name()), state, time, trials_in(path), lifts_in(path),
+                note_of(path), entry.fileName()});
     item->setToolTip(SessionColumn::note, item->text(SessionColumn::note));
     item->setToolTip(SessionColumn::state, changed);
     item->setData(0, Qt::UserRole, path);
     for (const int number : {SessionColumn::lasted, SessionColumn::trials, SessionColumn::lifts})
         item->setTextAlignment(number, Qt::AlignRight | Qt::AlignVCenter);
-    if (list_->topLevelItemCount() == 1) list_->setCurrentItem(item);
+    filter(*item);
     open_->setEnabled(true);
     note_->setEnabled(true);
     if (list_->topLevelItemCount() <= kLooked || waiting_.isEmpty()) fit_columns();
+}
+
+void SessionsDialog::filter(QTreeWidgetItem& item) {
+    const bool fits = item.text(SessionColumn::participant)
+                          .contains(participant_->text().trimmed(), Qt::CaseInsensitive);
+    item.setHidden(!fits);
+    if (!fits) {
+        item.setSelected(false);  // what is hidden must not be opened
+    } else if (list_->selectedItems().isEmpty()) {
+        list_->setCurrentItem(&item);
+    }
+}
+
+void SessionsDialog::show_whether_empty() {
+    bool any = false;
+    for (int i = 0; i < list_->topLevelItemCount(); ++i) any |= !list_->topLevelItem(i)->isHidden();
+    where_->setText(any ? tr("Sessions in %1. Select two (Ctrl + click) to show them side by side.")
+                              .arg(folder_)
+                    : list_->topLevelItemCount() > 0
+                        ? tr("No participant in %1 has \"%2\" in the identifier.")
+                              .arg(folder_, participant_->text().trimmed())
+                        : tr("There are no sessions in %1 yet. Each session that you start (F5) is "
+                             "recorded; File "
+                             "> Where sessions go chooses another folder.")
+                              .arg(folder_));
 }
 
 void SessionsDialog::fit_columns() {

@@ -5,6 +5,8 @@
 #include <QFileInfo>
 #include <QTimer>
 
+class QLabel;
+class QLineEdit;
 class QPushButton;
 class QTreeWidget;
 class QTreeWidgetItem;
@@ -25,13 +27,20 @@ class SessionsDialog : public QDialog {
   private:
     void fill_one();
     void fit_columns();
+    /// Shows only the sessions of participants whose identifiers contain what the user has typed.
+    void filter(QTreeWidgetItem& item);
+    /// Says why the list is empty, if it is.
+    void show_whether_empty();
     void choose();
     /// Asks for a note about a session, and stores it in the session's folder.
     void write_note();
 
+    QLabel* where_;
+    QLineEdit* participant_;
     QTreeWidget* list_;
     QPushButton* open_;
     QPushButton* note_;
+    QString folder_;
     QFileInfoList waiting_;  // session folders that have not been listed yet
     QTimer filling_;
 };
