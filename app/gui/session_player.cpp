@@ -6,31 +6,32 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QHBoxLayout>
-#include <QHeaderView>
 #include <QKeyEvent>
 #include <QLabel>
-#include <QLineEdit>
 #include <QMenuBar>
 #include <QPushButton>
 #include <QScreen>
 #include <QSlider>
 #include <QSplitter>
 #include <QStatusBar>
-#include <QTreeWidget>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 
+#include "curve_list.h"
 #include "edited_file.h"
+#include "event_words.h"
 #include "film.h"
 #include "help_page.h"
 #include "layers_menu.h"
+#include "moment_list.h"
+#include "player_icons.h"
 #include "recording/log_scene.h"
 #include "rows/episode_row.h"
 #include "rows/event_row.h"
 #include "rows/lift_row.h"
 #include "rows/trial_row.h"
+#include "saved_curves.h"
 #include "time_chart.h"
 
 namespace dihaptic::gui {
@@ -47,19 +48,6 @@ std::vector<Row> rows_of(const recording::SessionFolder& folder, const char* nam
     if (!std::filesystem::is_regular_file(file, ignored)) return {};
     const rows::RowFile<Row> table(file);
     return {table.begin(), table.end()};
-}
-
-/// Joins the words that are not empty.
-QString joined(std::initializer_list<QString> words) {
-    QStringList out(words);
-    out.removeAll(QString());
-    return out.join(' ');
-}
-
-/// A length as text, e.g. "slip 0.12 mm"; "" if it was not measured. `length`: [m].
-QString in_mm(const char* what, double length) {
-    if (std::isnan(length)) return {};
-    return QString("%1 %2 mm").arg(what).arg(1000 * length, 0, 'f', 2);
 }
 
 QString text(const std::string& of) {
@@ -81,7 +69,9 @@ SessionPlayer::SessionPlayer(const std::string& folder, QWidget* parent)
       scene_(scene_of(folder_)),
       log_(folder_.raw_log()),
       view_(new SceneWidget),
-      chart_(new TimeChart) {
+      chart_(new TimeChart),
+      moments_(new MomentList),
+      curves_(new CurveList(scene_)) {
     recording::check_fits(log_.head(), scene_, folder_.raw_log());
     setAttribute(Qt::WA_DeleteOnClose);
     setWindowTitle(
@@ -103,6 +93,7 @@ SessionPlayer::SessionPlayer(const std::string& folder, QWidget* parent)
             [this](const QString& why) { statusBar()->showMessage(why); });
     chart_->set_session(log_.begin(), log_.end());
     make_moments();
+    make_curve_list();
     make_menus();
     connect(chart_, &TimeChart::moment_chosen, this, &SessionPlayer::go_to);
     read_.setSingleShot(true);
@@ -110,7 +101,7 @@ SessionPlayer::SessionPlayer(const std::string& folder, QWidget* parent)
     connect(&read_, &QTimer::timeout, this, &SessionPlayer::read_curves);
     connect(&timer_, &QTimer::timeout, this, &SessionPlayer::go_on);
     resize(QSize(1200, 860).boundedTo(screen()->availableSize()));
-    choose_curves();
+    choose_curves({"grip_force", "load_force"});
     go_to(log_.begin());
     view_->setFocus();
 }
@@ -121,8 +112,8 @@ QWidget* SessionPlayer::make_controls() {
     auto* row = new QWidget;
     auto* layout = new QHBoxLayout(row);
     layout->setContentsMargins(0, 4, 0, 0);
-    const auto button = [&](const QString& text, const QString& what, auto done) {
-        auto* out = new QPushButton(text);
+    const auto button = [&](PlayerIcon icon, const QString& what, auto done) {
+        auto* out = new QPushButton(player_icon(icon, palette()), "");
         out->setToolTip(what);
         out->setAccessibleName(what);
         out->setFocusPolicy(Qt::NoFocus);
@@ -131,12 +122,15 @@ QWidget* SessionPlayer::make_controls() {
         layout->addWidget(out);
         return out;
     };
-    button("|<", tr("Previous moment (Page Up)"), [this] { next_moment(-1); });
-    button("<", tr("Previous tick (Left)"), [this] { step(-1); });
-    play_ = button(tr("Play"), tr("Play, or stop (Space)"), [this] { play(!timer_.isActive()); });
-    play_->setFixedWidth(70);
-    button(">", tr("Next tick (Right)"), [this] { step(1); });
-    button(">|", tr("Next moment (Page Down)"), [this] { next_moment(1); });
+    button(PlayerIcon::previous_moment, tr("Previous moment (Page Up)"),
+           [this] { next_moment(-1); });
+    button(PlayerIcon::previous_tick, tr("Previous tick (Left)"), [this] { step(-1); });
+    play_ =
+        button(PlayerIcon::play, tr("Play, or stop (Space)"), [this] { play(!timer_.isActive()); });
+    play_->setText(tr("Play"));
+    play_->setFixedWidth(90);
+    button(PlayerIcon::next_tick, tr("Next tick (Right)"), [this] { step(1); });
+    button(PlayerIcon::next_moment, tr("Next moment (Page Down)"), [this] { next_moment(1); });
     auto* speed = new QComboBox;
     speed->setAccessibleName(tr("Speed"));
     speed->setFocusPolicy(Qt::NoFocus);
@@ -157,29 +151,24 @@ QWidget* SessionPlayer::make_controls() {
     layout->addWidget(slider_, 1);
     where_ = new QLabel;
     statusBar()->addPermanentWidget(where_);
-    curves_ = new QLineEdit(expressions_.join("; "));
-    curves_->setAccessibleName(tr("Curves"));
-    curves_->setToolTip(
-        tr("Curves drawn below: names from docs/quantities.md, or expressions of them, separated "
-           "by semicolons: grip_force; block.z - 20 mm; distance(thumb, index)"));
-    curves_->setMinimumWidth(160);
-    connect(curves_, &QLineEdit::returnPressed, this, [this] {
-        expressions_.clear();
-        for (const QString& text : curves_->text().split(';', Qt::SkipEmptyParts))
-            expressions_ += text.trimmed();
-        if (choose_curves()) view_->setFocus();
-    });
-    layout->addWidget(curves_);
     return row;
 }
 
-void SessionPlayer::make_menus() {
+void SessionPlayer::make_file_menu() {
     QMenu* file = menuBar()->addMenu(tr("&File"));
     file->addAction(tr("Save &picture ..."), QKeySequence::Save, this,
                     &SessionPlayer::save_picture);
     file->addAction(tr("Save &video ..."), QKeySequence("Ctrl+Shift+S"), this,
                     &SessionPlayer::save_video);
+    file->addAction(tr("Save c&urves ..."), QKeySequence("Ctrl+Shift+C"), this,
+                    &SessionPlayer::save_curves);
+    file->addSeparator();
     file->addAction(tr("&Close"), QKeySequence::Close, this, &QWidget::close);
+    file->addAction(tr("&Quit"), QKeySequence::Quit, qApp, &QApplication::closeAllWindows);
+}
+
+void SessionPlayer::make_menus() {
+    make_file_menu();
     QMenu* view = menuBar()->addMenu(tr("&View"));
     for (const view::Camera& camera : view_->cameras())
         view->addAction(QString::fromStdString(camera.name), this,
@@ -188,6 +177,7 @@ void SessionPlayer::make_menus() {
     together_ = view->addAction(tr("&Together with other sessions"));
     together_->setCheckable(true);
     together_->setToolTip(tr("Shows the same time of the same trial"));
+    view->addAction(choose_);
     for (QDockWidget* dock : findChildren<QDockWidget*>())
         view->addAction(dock->toggleViewAction());
     view->addSeparator();
@@ -203,46 +193,58 @@ void SessionPlayer::make_menus() {
     page(tr("&Tables of a session"), "tables");
 }
 
-/// Lists the events found in the session's tables.
-void SessionPlayer::make_moments() {
-    list_ = new QTreeWidget;
-    list_->setAccessibleName(tr("Moments"));
-    list_->setRootIsDecorated(false);
-    list_->setHeaderLabels({"s", tr("what")});
-    list_->setFocusPolicy(Qt::ClickFocus);
+void SessionPlayer::list_trials() {
     for (const rows::TrialRow& row : rows_of<rows::TrialRow>(folder_, "trials.csv")) {
         if (std::isfinite(row.head.start) && row.asked.trial > 0)
             starts_.push_back({row.head.start, row.asked.trial});
-        list_moment(row.head.start,
-                    joined({tr("trial"), QString::number(row.asked.trial),
-                            text(row.asked.condition), text(row.measures.outcome)}));
+        QStringList words{tr("trial %1 begins").arg(row.asked.trial)};
+        if (!row.asked.condition.empty()) words += text(row.asked.condition);
+        moments_->add(row.head.start, words.join(", "));
     }
     std::sort(starts_.begin(), starts_.end(),
               [](const Start& a, const Start& b) { return a.time < b.time; });
+}
+
+/// Lists the events found in the session's tables.
+void SessionPlayer::make_moments() {
+    const std::vector<std::string> fingers = scene::finger_names(scene_);
+    list_trials();
     for (const rows::EventRow& event : rows_of<rows::EventRow>(folder_, "events.csv")) {
-        if (event.name != "trial")  // trials have already been listed
-            list_moment(event.time, joined({text(event.name), text(event.detail)}));
+        if (event.name == "trial") continue;  // trials have already been listed
+        if (event.name == "limit") {
+            moments_->add_counted(event.time, sentence_of(event, fingers));
+        } else {
+            moments_->add(event.time, sentence_of(event, fingers));
+        }
     }
-    for (const rows::EpisodeRow& episode : rows_of<rows::EpisodeRow>(folder_, "episodes.csv")) {
-        list_moment(episode.start,
-                    joined({text(std::string(enum_name(episode.kind))), in_mm("slip", episode.slip),
-                            in_mm("rise", episode.rise)}));
-    }
+    for (const rows::EpisodeRow& episode : rows_of<rows::EpisodeRow>(folder_, "episodes.csv"))
+        moments_->add(episode.start, sentence_of(episode));
     for (const rows::LiftRow& lift : rows_of<rows::LiftRow>(folder_, "lifts.csv")) {
         // the events already include touch, lift-off, replacement and release
-        list_moment(lift.load_onset, tr("load onset, trial %1").arg(lift.trial));
-        list_moment(lift.first_slip, tr("first slip, trial %1").arg(lift.trial));
+        moments_->add(lift.load_onset, tr("the load force begins, trial %1").arg(lift.trial));
+        moments_->add(lift.first_slip, tr("a finger slips first, trial %1").arg(lift.trial));
     }
-    list_->sortItems(0, Qt::AscendingOrder);
-    list_->header()->resizeSection(0, 80);
-    std::sort(moments_.begin(), moments_.end());
-    chart_->set_moments(moments_);
-    connect(list_, &QTreeWidget::itemClicked, this,
-            [this](QTreeWidgetItem* item) { go_to(item->data(0, Qt::UserRole).toDouble()); });
+    moments_->finish();
+    chart_->set_moments(moments_->times());
+    connect(moments_, &MomentList::chosen, this, &SessionPlayer::go_to);
     auto* dock = new QDockWidget(tr("Moments"));
-    dock->setWidget(list_);
+    dock->setWidget(moments_);
     addDockWidget(Qt::RightDockWidgetArea, dock);
-    resizeDocks({dock}, {300}, Qt::Horizontal);
+    resizeDocks({dock}, {400}, Qt::Horizontal);
+}
+
+void SessionPlayer::make_curve_list() {
+    connect(curves_, &CurveList::chosen, this, &SessionPlayer::choose_curves);
+    auto* dock = new QDockWidget(tr("Curves"));
+    dock->setWidget(curves_);
+    addDockWidget(Qt::RightDockWidgetArea, dock);
+    auto* find = new QAction(tr("Choose c&urves"), this);
+    find->setShortcut(QKeySequence::Find);
+    connect(find, &QAction::triggered, dock, [this, dock] {
+        dock->show();
+        curves_->find();
+    });
+    choose_ = find;
 }
 
 SessionPlayer::Moment SessionPlayer::moment() const {
@@ -274,38 +276,20 @@ void SessionPlayer::set_together(bool together) {
     together_->setChecked(together);
 }
 
-void SessionPlayer::list_moment(double seconds, const QString& what) {
-    if (!std::isfinite(seconds)) return;
-    const bool limit = what.startsWith("limit ");
-    if (QTreeWidgetItem* const same = limit ? limits_[what] : nullptr) {
-        const int times = same->data(1, Qt::UserRole).toInt() + 1;
-        same->setData(1, Qt::UserRole, times);
-        same->setText(1, tr("%1 (%2 times)").arg(what).arg(times));
-        return;
-    }
-    auto* item = new QTreeWidgetItem(list_, {QString("%1").arg(seconds, 8, 'f', 3), what});
-    item->setData(0, Qt::UserRole, seconds);
-    item->setToolTip(1, what);
-    moments_.push_back(seconds);
-    if (!limit) return;
-    item->setData(1, Qt::UserRole, 1);
-    limits_[what] = item;
-}
-
-bool SessionPlayer::choose_curves() {
+void SessionPlayer::choose_curves(const QStringList& expressions) {
     Diagnostics diagnostics;
     std::vector<task::RecordedValue> values;
-    for (const QString& text : expressions_)
+    for (const QString& text : expressions)
         values.emplace_back(text.toStdString(), scene_, diagnostics);
-    if (diagnostics.has_errors()) {
-        statusBar()->showMessage(QString::fromStdString(diagnostics.problems().front().text()));
-        return false;
-    }
+    if (diagnostics.has_errors())
+        return statusBar()->showMessage(
+            QString::fromStdString(diagnostics.problems().front().text()));
     statusBar()->clearMessage();
+    expressions_ = expressions;
     values_ = std::move(values);
+    curves_->set_curves(expressions_);
     read_curves();
     go_to(time_);
-    return true;
 }
 
 void SessionPlayer::read_curves() {
@@ -329,6 +313,7 @@ void SessionPlayer::go_to(double time) {
     }
     chart_->set_values(words);
     chart_->set_cursor(time_);
+    moments_->show_time(time_);
     slider_->setValue(static_cast<int>(kSliderSteps * (time_ - log_.begin()) /
                                        std::max(1e-9, log_.end() - log_.begin())));
     QString where = tr("%1 s of %2 s, tick %3")
@@ -346,6 +331,7 @@ void SessionPlayer::go_to(double time) {
 
 void SessionPlayer::play(bool on) {
     play_->setText(on ? tr("Stop") : tr("Play"));
+    play_->setIcon(player_icon(on ? PlayerIcon::stop : PlayerIcon::play, palette()));
     if (!on) return timer_.stop();
     if (time_ >= log_.end()) go_to(log_.begin());
     clock_.start();
@@ -367,14 +353,7 @@ void SessionPlayer::step(int frames) {
 }
 
 void SessionPlayer::next_moment(int way) {
-    constexpr double kSame = 1e-6;  // [s]
-    if (way > 0) {
-        const auto next = std::upper_bound(moments_.begin(), moments_.end(), time_ + kSame);
-        if (next != moments_.end()) go_to(*next);
-    } else {
-        const auto next = std::lower_bound(moments_.begin(), moments_.end(), time_ - kSame);
-        if (next != moments_.begin()) go_to(*std::prev(next));
-    }
+    if (const auto time = moments_->next_from(time_, way)) go_to(*time);
 }
 
 void SessionPlayer::save_picture() {
@@ -392,6 +371,27 @@ void SessionPlayer::save_picture() {
     } catch (const Error& e) {
         statusBar()->showMessage(QString::fromStdString(e.problems().front().text()));
     }
+}
+
+void SessionPlayer::save_curves() {
+    const QString file = QFileDialog::getSaveFileName(
+        this, tr("Save the stretch that the curves show, as a figure or as numbers"),
+        QString::fromStdString(folder_.path()) + "/curves.svg",
+        tr("Figures and tables (*.svg *.pdf *.png *.csv)"));
+    if (file.isEmpty()) return;
+    try {
+        if (file.endsWith(".csv")) {
+            const Table table =
+                table_of_curves(log_, values_, expressions_, chart_->begin(), chart_->end());
+            replace_file(file, QByteArray::fromStdString(to_csv(table)));
+        } else {
+            save_figure(*chart_, file);
+        }
+        statusBar()->showMessage(tr("curves: %1").arg(file));
+    } catch (const Error& e) {
+        statusBar()->showMessage(QString::fromStdString(e.problems().front().text()));
+    }
+    go_to(time_);
 }
 
 void SessionPlayer::save_video() {

@@ -5,7 +5,6 @@
 #include <QElapsedTimer>
 #include <QMainWindow>
 #include <QTimer>
-#include <map>
 #include <memory>
 
 #include "curve_reader.h"
@@ -15,14 +14,13 @@
 
 class QComboBox;
 class QLabel;
-class QLineEdit;
 class QPushButton;
 class QSlider;
-class QTreeWidget;
-class QTreeWidgetItem;
 
 namespace dihaptic::gui {
 
+class CurveList;
+class MomentList;
 class SceneWidget;
 class TimeChart;
 
@@ -56,15 +54,15 @@ class SessionPlayer : public QMainWindow {
 
   private:
     void make_menus();
+    void make_file_menu();
     QWidget* make_controls();
     void make_moments();
-    /// Adds an event at the given time [s] to the list, unless the time is NaN because it was not
-    /// measured. A limit that was reached before is only counted.
-    void list_moment(double seconds, const QString& what);
+    void list_trials();
+    void make_curve_list();
     void read_curves();
-    /// Shows the curves that the user has typed. If one of them is not a valid expression, shows a
-    /// message and returns false.
-    bool choose_curves();
+    /// Shows these curves. If one of them is not a valid expression, shows a message instead.
+    void choose_curves(const QStringList& expressions);
+    void save_curves();
     void play(bool on);
     void go_on();
     void step(int frames);
@@ -77,17 +75,16 @@ class SessionPlayer : public QMainWindow {
     recording::LogBrowser log_;
     double time_ = 0;
     double speed_ = 1;
-    std::vector<double> moments_;
-    std::map<QString, QTreeWidgetItem*> limits_;
     struct Start {
         double time;  // [s]
         int trial;
     };
     std::vector<Start> starts_;  // start of each trial attempt
     QAction* together_ = nullptr;
+    QAction* choose_ = nullptr;  // moves to the list of curves
     bool following_ = false;
     std::vector<task::RecordedValue> values_;
-    QStringList expressions_{"grip_force", "load_force"};
+    QStringList expressions_;
     CurveReader reader_;
     QTimer timer_;
     QElapsedTimer clock_;
@@ -96,8 +93,8 @@ class SessionPlayer : public QMainWindow {
     QSlider* slider_ = nullptr;
     QPushButton* play_ = nullptr;
     QLabel* where_ = nullptr;
-    QLineEdit* curves_ = nullptr;
-    QTreeWidget* list_ = nullptr;
+    MomentList* moments_;
+    CurveList* curves_;
     QTimer read_;  // delays the reading of curves after zooming
 };
 

@@ -83,9 +83,10 @@ void TimeChart::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     const QRectF in = area();
-    const double row = in.height() / static_cast<double>(std::max<size_t>(1, curves_.size()));
-    for (size_t i = 0; i < curves_.size(); ++i)
-        draw_row(painter, i,
+    const std::vector<std::vector<size_t>> rows = this->rows();
+    const double row = in.height() / static_cast<double>(std::max<size_t>(1, rows.size()));
+    for (size_t i = 0; i < rows.size(); ++i)
+        draw_row(painter, rows[i],
                  {in.left(), in.top() + static_cast<double>(i) * row, in.width(), row - 14});
     const ChartPainter chart(painter, *this, in, begin_, end_, {});
     draw_times(chart);
@@ -94,24 +95,49 @@ void TimeChart::paintEvent(QPaintEvent*) {
         if (moment >= begin_ && moment <= end_)
             chart.draw_upright(moment, QPen(chart.ink(60), 1, Qt::DotLine));
     }
+    if (on_paper_) return;
     chart.draw_upright(cursor_, QPen(chart.ink(), 1.5));
     if (share_ < 1)
         painter.drawText(in, Qt::AlignRight | Qt::AlignTop,
                          tr("reading, %1 % ").arg(std::lround(100 * share_)));
 }
 
-void TimeChart::draw_row(QPainter& painter, size_t row, const QRectF& in) const {
-    const RecordedCurve& curve = curves_[row];
+std::vector<std::vector<size_t>> TimeChart::rows() const {
+    std::vector<std::vector<size_t>> out;
+    for (size_t i = 0; i < curves_.size(); ++i) {
+        const auto same = std::ranges::find_if(out, [&](const std::vector<size_t>& row) {
+            return curves_[row.front()].unit == curves_[i].unit;
+        });
+        if (same == out.end()) {
+            out.push_back({i});
+        } else {
+            same->push_back(i);
+        }
+    }
+    return out;
+}
+
+std::vector<QPointF> TimeChart::points_of(const RecordedCurve& curve) const {
     const double part = (curves_end_ - curves_begin_) / static_cast<double>(curve.low.size());
-    std::vector<QPointF> points;
-    double least = 0, most = 0;
+    std::vector<QPointF> out;
     for (size_t i = 0; i < curve.low.size(); ++i) {
         if (!std::isfinite(curve.low[i]) || !std::isfinite(curve.high[i])) continue;
         const double at = curves_begin_ + (static_cast<double>(i) + 0.5) * part;
-        points.emplace_back(at, curve.low[i]);
-        points.emplace_back(at, curve.high[i]);
-        least = std::min(least, points[points.size() - 2].y());
-        most = std::max(most, points.back().y());
+        out.emplace_back(at, curve.low[i]);
+        out.emplace_back(at, curve.high[i]);
+    }
+    return out;
+}
+
+void TimeChart::draw_row(QPainter& painter, const std::vector<size_t>& curves,
+                         const QRectF& in) const {
+    std::vector<std::vector<QPointF>> all;
+    double least = 0, most = 0;
+    for (const size_t i : curves) {
+        for (const QPointF& point : all.emplace_back(points_of(curves_[i]))) {
+            least = std::min(least, point.y());
+            most = std::max(most, point.y());
+        }
     }
     if (most <= least) most = least + 1;
     const double lines = in.height() / (2.0 * fontMetrics().height());
@@ -119,18 +145,56 @@ void TimeChart::draw_row(QPainter& painter, size_t row, const QRectF& in) const 
     chart.draw_values();
     painter.save();
     painter.setClipRect(in);
-    // drawn as separate lines, because short lines within one curve would look thinner
-    painter.setPen(QPen(colour_of(row), 1.4));
-    for (size_t i = 1; i < points.size(); ++i)
-        painter.drawLine(chart.at(points[i - 1]), chart.at(points[i]));
+    painter.setBrush(Qt::NoBrush);
+    for (size_t i = 0; i < curves.size(); ++i) {
+        // on the screen, drawn as separate lines, because short lines within one curve would look
+        // thinner
+        painter.setPen(QPen(colour_of(curves[i]), 1.4));
+        if (on_paper_) {
+            chart.draw_curve(all[i], painter.pen());  // the file stays small
+            continue;
+        }
+        for (size_t k = 1; k < all[i].size(); ++k)
+            painter.drawLine(chart.at(all[i][k - 1]), chart.at(all[i][k]));
+    }
     painter.restore();
-    const QString value = static_cast<qsizetype>(row) < values_.size()
-                              ? values_[static_cast<qsizetype>(row)]
-                              : QString();
-    painter.setPen(colour_of(row));
-    painter.drawText(in.adjusted(6, 0, 0, 0), Qt::AlignLeft | Qt::AlignTop,
-                     value.isEmpty() ? tr("%1   has no value here").arg(curve.name)
-                                     : QString("%1   %2 %3").arg(curve.name, value, curve.unit));
+    draw_names(painter, curves, in);
+}
+
+/// Writes the name of each curve of a row, with the value at the cursor.
+void TimeChart::draw_names(QPainter& painter, const std::vector<size_t>& curves,
+                           const QRectF& in) const {
+    double left = in.left() + 6;
+    for (const size_t i : curves) {
+        const RecordedCurve& curve = curves_[i];
+        const auto place = static_cast<qsizetype>(i);
+        const QString value = place < values_.size() ? values_[place] : QString();
+        const QString text = on_paper_ ? QString("%1 [%2]").arg(curve.name, curve.unit)
+                             : value.isEmpty()
+                                 ? tr("%1   has no value here").arg(curve.name)
+                                 : QString("%1   %2 %3").arg(curve.name, value, curve.unit);
+        painter.setPen(colour_of(i));
+        painter.drawText(QRectF(left, in.top(), in.right() - left, in.height()),
+                         Qt::AlignLeft | Qt::AlignTop, text);
+        left += fontMetrics().horizontalAdvance(text) + 24;
+    }
+}
+
+std::unique_ptr<TimeChart> TimeChart::on_paper() const {
+    auto out = std::make_unique<TimeChart>();
+    out->on_paper_ = true;
+    out->setPalette(QPalette(Qt::black, Qt::white, Qt::white, Qt::darkGray, Qt::gray, Qt::black,
+                             Qt::white, Qt::white, Qt::white));
+    out->resize(size());
+    out->first_ = first_;
+    out->last_ = last_;
+    out->begin_ = begin_;
+    out->end_ = end_;
+    out->share_ = share_;
+    out->curves_ = curves_;
+    out->curves_begin_ = curves_begin_;
+    out->curves_end_ = curves_end_;
+    return out;
 }
 
 void TimeChart::draw_times(const ChartPainter& chart) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QWidget>
+#include <memory>
 
 #include "chart_painter.h"
 #include "curve_reader.h"
@@ -25,6 +26,8 @@ class TimeChart : public QWidget {
     /// Sets the values of the curves at the cursor, as text; empty if there is no cursor.
     void set_values(const QStringList& values);
     void set_moments(std::vector<double> times);
+    /// Returns a chart of the same curves that can be saved.
+    std::unique_ptr<TimeChart> on_paper() const;
     /// Sets the displayed time [s]. If it is out of view, the chart scrolls to it.
     void set_cursor(double time);
 
@@ -46,13 +49,18 @@ class TimeChart : public QWidget {
     QRectF area() const;
     double time_at(double x) const;
     void show_stretch(double begin, double end);
-    void draw_row(QPainter& painter, size_t row, const QRectF& in) const;
+    /// The curves of each row: those that have the same unit share an axis.
+    std::vector<std::vector<size_t>> rows() const;
+    std::vector<QPointF> points_of(const RecordedCurve& curve) const;
+    void draw_row(QPainter& painter, const std::vector<size_t>& curves, const QRectF& in) const;
+    void draw_names(QPainter& painter, const std::vector<size_t>& curves, const QRectF& in) const;
     void draw_times(const ChartPainter& chart) const;
 
     double first_ = 0, last_ = 1;  // start and end of the session [s]
     double begin_ = 0, end_ = 1;   // displayed stretch
     double cursor_ = 0;
     double share_ = 1;
+    bool on_paper_ = false;
     std::vector<RecordedCurve> curves_;
     double curves_begin_ = 0, curves_end_ = 1;
     QStringList values_;

@@ -7,6 +7,8 @@ import subprocess
 import time
 import unittest
 
+import numpy as np
+
 from window import PROGRAM, Window
 
 import soak
@@ -54,11 +56,55 @@ class Player(Window):
         self.key("ctrl+w")
         self.wait("the end", lambda: self.window.poll() is not None or True)
 
+    def test_saves_its_curves_as_a_figure_and_as_numbers(self):
+        folder = self.record()
+        self.open(folder)
+        for kind, begins in (("svg", b"<?xml"), ("pdf", b"%PDF"), ("png", b"\x89PNG"), ("csv", b"time_s,grip_force_N,load_force_N")):
+            file = pathlib.Path(self.folder.name, "curves." + kind)
+            self.key("ctrl+shift+c")
+            dialog = self.wait("the dialog", lambda: self.dialogs("^Save the stretch"))[-1]
+            self.xdotool("windowfocus", dialog)
+            time.sleep(0.5)
+            self.key("ctrl+a")
+            self.type(str(file))
+            self.key("Return")
+            self.wait("the file", file.is_file)
+            self.assertTrue(file.read_bytes().startswith(begins), kind)
+            self.xdotool("windowfocus", self.name)
+        with open(file) as table:
+            rows = list(csv.DictReader(table))
+        self.assertEqual(len(rows), 9501)  # a row for each tick
+        self.assertAlmostEqual(max(float(row["grip_force_N"]) for row in rows), 4, delta=3)
+        self.quit()
+
+    def test_draws_what_is_ticked_in_the_list_of_curves(self):
+        folder = self.record()
+        self.open(folder)
+        self.settle()
+
+        def chart():
+            return self.pixels(60, 720, 800, 140).astype(int)
+
+        before = chart()
+        self.key("ctrl+f")
+        self.type("block.position.z")
+        self.key("Tab", "Down", "space")
+        self.settle()
+        self.screenshot("player-ticked")
+        self.assertGreater(np.abs(chart() - before).mean(), 1)
+        self.quit()
+
     def test_is_opened_from_the_list_of_sessions(self):
         folder = self.record()
         self.open()
         self.key("ctrl+shift+o")
         time.sleep(0.5)
+        self.type("S07")  # a participant without sessions leaves none to open
+        self.screenshot("sessions-of-nobody")
+        self.key("Return")
+        time.sleep(1)
+        self.assertTrue(self.dialogs("^Recorded sessions$"))
+        self.key("ctrl+a", "BackSpace")
         self.screenshot("sessions")
         self.key("Return")
         name = os.path.basename(folder)
