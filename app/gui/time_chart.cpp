@@ -11,10 +11,16 @@ namespace {
 
 constexpr double kShortestStretch = 0.02;  // shortest interval that can be shown [s]
 
-QColor colour_of(size_t row) {
-    if (row == 0) return palette::kGrip;
-    if (row == 1) return palette::kLoad;
-    return palette::finger(row - 1);
+QColor colour_of(size_t curve) {
+    if (curve == 0) return palette::kGrip;
+    if (curve == 1) return palette::kLoad;
+    return palette::finger(curve - 1);
+}
+
+/// A colour that is chosen for a white ground, as it is drawn on the ground of this palette.
+QColor on_ground(const QColor& colour, const QPalette& palette) {
+    constexpr int kLighter = 150;  // [%]
+    return palette.color(QPalette::Window).lightness() < 128 ? colour.lighter(kLighter) : colour;
 }
 
 }  // namespace
@@ -149,7 +155,7 @@ void TimeChart::draw_row(QPainter& painter, const std::vector<size_t>& curves,
     for (size_t i = 0; i < curves.size(); ++i) {
         // on the screen, drawn as separate lines, because short lines within one curve would look
         // thinner
-        painter.setPen(QPen(colour_of(curves[i]), 1.4));
+        painter.setPen(QPen(on_ground(colour_of(curves[i]), palette()), 1.4));
         if (on_paper_) {
             chart.draw_curve(all[i], painter.pen());  // the file stays small
             continue;
@@ -173,7 +179,7 @@ void TimeChart::draw_names(QPainter& painter, const std::vector<size_t>& curves,
                              : value.isEmpty()
                                  ? tr("%1   has no value here").arg(curve.name)
                                  : QString("%1   %2 %3").arg(curve.name, value, curve.unit);
-        painter.setPen(colour_of(i));
+        painter.setPen(on_ground(colour_of(i), palette()));
         painter.drawText(QRectF(left, in.top(), in.right() - left, in.height()),
                          Qt::AlignLeft | Qt::AlignTop, text);
         left += fontMetrics().horizontalAdvance(text) + 24;
