@@ -2,12 +2,19 @@
 
 Usage: gui/pictures.py PROGRAM docs/pictures, from the project's folder.
 """
+import os
 import pathlib
+import shutil
 import subprocess
 import time
 import unittest
 
-from window import PROGRAM, Window
+import window
+from window import Window
+
+# from whichever folder, since a picture shows paths relative to it
+window.PROGRAM = os.path.abspath(window.PROGRAM)
+window.SCREENSHOTS = os.path.abspath(window.SCREENSHOTS)
 
 
 class Pictures(Window):
@@ -30,7 +37,7 @@ class Pictures(Window):
 
     def test_player(self):
         """A block that a script has lifted, and holds."""
-        subprocess.run([PROGRAM, "run", "experiments/lift-block.yaml", "--out", self.out], check=True, capture_output=True)
+        subprocess.run([window.PROGRAM, "run", "experiments/lift-block.yaml", "--out", self.out], check=True, capture_output=True)
         self.open(self.recording().rstrip("/"))
         self.key("Home", *["Page_Down"] * 6)
         self.settle()
@@ -39,10 +46,12 @@ class Pictures(Window):
 
     def test_calibration(self):
         """What a calibration of two misplaced devices found."""
-        pathlib.Path(self.folder.name, "rig.yaml").write_text(pathlib.Path("rigs/premium-misplaced.yaml").read_text())
-        file = pathlib.Path(self.folder.name, "experiment.yaml")
-        file.write_text("scene: block.yaml\nrig: rig.yaml\n")
-        self.open(str(file))
+        pathlib.Path(self.folder.name, "rigs").mkdir()
+        shutil.copy("rigs/premium-misplaced.yaml", self.folder.name + "/rigs")
+        pathlib.Path(self.folder.name, "lift.yaml").write_text("scene: block.yaml\nrig: rigs/premium-misplaced.yaml\n")
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder.name)
+        self.open("lift.yaml")
         self.key("alt+s", "c")
         dialog = self.wait("the result", lambda: self.dialogs("^Result of the calibration"))[-1]
         time.sleep(1)

@@ -10,7 +10,7 @@ import pictures
 import soak
 import window
 
-KEPT = pathlib.Path("docs/pictures")
+KEPT = pathlib.Path("docs/pictures").absolute()
 #: Mean difference of grey levels above which a picture is old. Two drawings of one window differ by 0.3, in times and
 #: numbers; a window whose menus and plots had other names differed by 3.
 MOST = 1.5
@@ -38,7 +38,7 @@ class Fresh(pictures.Pictures):
         super().screenshot(name)
         difference = np.abs(grey(f"{window.SCREENSHOTS}/{name}.png") - grey(KEPT / f"{name}.png")).mean()
         print(f"{name}: {difference:.2f} grey levels")
-        self.assertLess(difference, MOST, f"{KEPT}/{name}.png is older than what it shows: ./dev pictures draws it again")
+        self.assertLess(difference, MOST, f"docs/pictures/{name}.png is older than what it shows: ./dev pictures draws it again")
 
 
 if __name__ == "__main__":
