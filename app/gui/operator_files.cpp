@@ -214,7 +214,8 @@ void OperatorWindow::show_drag(size_t body, const Pose& X_WB) {
 }
 
 void OperatorWindow::show_compose_help() {
-    if (control_.runner().running()) return;  // other help is shown then
+    const bool running = control_.runner().running();
+    if (running && mouse_) return;  // the help for the mouse is shown
     const auto& plan = control_.plan();
     const auto is_here = [this](const scene::Body& body) {
         return body.place.file == control_.file().toStdString();
