@@ -128,7 +128,7 @@ class Compose(Window):
         self.key("Return")
         self.type("friction: 0.5")
         self.key("ctrl+s")
-        self.wait("the names", lambda: self.text() == SCENE + "pairs:\n- between: [block, table]\n  friction: 0.5")
+        self.wait("the names", lambda: self.text() == SCENE + "pairs:\n  - between: [block, table]\n    friction: 0.5")
         self.quit()
 
     def position(self):
