@@ -16,20 +16,9 @@ using task::TaskPlan;
 using task::When;
 
 constexpr double kUsualDensity = 1000;  // density expected before the first lift [kg/m^3]
-constexpr double kReach = 0.03;         // shortest movement from which rotations are learned [m]
-constexpr double kGlance = 0.15;        // share of a reach after which the person corrects it
-constexpr double kSurely = 2.45;        // 95 % of errors in two axes are within so many SD
-constexpr double kJudged = 0.4;         // share of a reach after which its error is judged
-constexpr double kShortest = 0.2;       // shortest duration of a stroke [s]
-constexpr double kSettled = 0.05;       // time from a stroke until its end is judged [s]
-constexpr double kGoodEnough = 4e-3;    // distance from the target that is good enough [m]
-constexpr int kMostCorrections = 4;
-constexpr double kWorse = 1.2;     // factor of error growth at which the person gives up correcting
-constexpr double kYields = 0.015;  // yielding under a finger above which it presses less [m]
-constexpr double kOver = 0.02;     // vertical distance above which the hand moves in two parts [m]
-constexpr double kOverlap = 0.6;   // duration of each part, as a share of the whole duration
-constexpr double kGuided = 0.4;    // ratio of such a movement's noise to a reach's
-constexpr double kOpening = 2e-3;  // increase in aperture that releases the object [m]
+constexpr double kYields = 0.015;       // yielding under a finger above which it presses less [m]
+constexpr double kOverlap = 0.6;        // duration of each part, as a share of the whole duration
+constexpr double kOpening = 2e-3;       // increase in aperture that releases the object [m]
 constexpr double kUpward = 2e-3;   // upward movement beyond which a gripping hand starts a lift [m]
 constexpr double kIdle = 0.4;      // time between trials after which the hand returns to rest [s]
 constexpr double kRestTime = 0.6;  // duration of the movement back to rest [s]
@@ -37,17 +26,8 @@ constexpr double kRetry = 3;       // time in a state before its steps are repea
 constexpr double kGivingUp = 10;   // delay that stands for not making an attempt [s]
 constexpr double kWeak = 0.4;      // ratio of a too weak grip to the right one
 constexpr double kDecision = 0.4;  // time to decide on an answer, after the reaction time [s]
-constexpr double kFeelTime = 0.05;   // same as kFeelTime in hand/finger.h [s]
-constexpr double kArmMass = 1;       // mass of an arm that the hand has to move with it [kg]
-constexpr double kStill = 0.05;      // speed below which the hand is felt to be still [m/s]
-constexpr double kDrifts = 3e-3;     // speed above which the hand drifts rather than rests [m/s]
-constexpr double kGiving = 0.04;     // time constant with which a waiting arm gives way [s]
-constexpr double kPatience = 0.5;    // longest time for which the hand is awaited to be still [s]
-constexpr double kJump = 4e-3;       // smallest jump of target or cursor that is answered [m]
-constexpr double kClearPush = 0.3;   // mean push above which its time is clearly felt [N]
-constexpr double kSeenJump = 0.01;   // time for which a jump is seen before it is answered [s]
-constexpr int kMostJumps = 2;        // of one reach that are answered
-constexpr double kRedirected = 0.3;  // shortest duration of the stroke that answers a jump [s]
+constexpr double kFeelTime = 0.05;  // same as kFeelTime in hand/finger.h [s]
+constexpr double kStill = 0.05;     // speed below which the hand is felt to be still [m/s]
 
 std::vector<Vec3> sides_of(const std::vector<hand::FingerPlace>& places) {
     std::vector<Vec3> out;
@@ -145,19 +125,6 @@ bool asks(const TaskPlan::PlannedState& planned) noexcept {
                            return transition.exit.when == When::key ||
                                   transition.exit.when == When::answered;
                        });
-}
-
-Vec3 rotation_between(const Vec3& from, const Vec3& to) noexcept {
-    const Vec3 axis = from.cross(to);
-    const double sine = axis.norm();
-    if (sine < 1e-12) return Vec3::Zero();
-    return std::atan2(sine, from.dot(to)) / sine * axis;
-}
-
-Vec3 rotated(const Vec3& rotation, const Vec3& v) noexcept {
-    const double angle = rotation.norm();
-    if (angle < 1e-12) return v;
-    return Eigen::AngleAxisd(angle, rotation / angle) * v;
 }
 
 }  // namespace
@@ -480,16 +447,6 @@ void Person::go_on(const Sight& sight) noexcept {
     }
 }
 
-/// While a person waits to reach, the arm gives way to whatever holds the hand off its aim, such as
-/// the walls of a channel that have just appeared, so that the reach begins without a force. A hand
-/// that moves as the arm gives way is not held, and the arm keeps its aim.
-void Person::give_way() noexcept {
-    const bool reaches = step_ < steps().size() && steps()[step_].step.reach.index >= 0;
-    if (!reaches || grip_.holds() || velocity_.norm() > kDrifts || now_ < aim_.end()) return;
-    const Vec3 off = centre_ - aim_.at(now_).centre;
-    aim_.shift({std::min(1.0, tick_ / kGiving) * off, 0, 0});
-}
-
 /// Repeats the steps if the hand did not move far enough for the trial to continue.
 void Person::try_again(const Sight& sight) noexcept {
     const bool failed = !between_ && trial_ > 0 && phase_ == acting_ && now_ - since_ > kRetry &&
@@ -602,255 +559,6 @@ void Person::move(const Aim& way, double duration, const Sight& sight) noexcept 
     const Aim upward{up * Vec3::UnitZ(), 0, 0};
     aim_.add(aside, now_, part, up > 0 ? duration - part : 0);
     aim_.add(upward, now_, part, up > 0 ? 0 : duration - part);
-}
-
-/// Whether the hand makes a movement in two parts: an open hand approaches objects from above and
-/// moves upward to leave them, so that it does not sweep them away.
-bool Person::from_above(const Vec3& displacement) const noexcept {
-    return places_.size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
-}
-
-/// The movement that the hand must make so that the display shows `displacement`, as far as the
-/// person has learned this.
-Vec3 Person::made_for(const Vec3& displacement) const noexcept {
-    if (displacement.norm() < 1e-9) return displacement;
-    const size_t m = memory_[static_cast<size_t>(acting_ - 1)];
-    const Vec3 d = displacement.normalized();
-    return std::exp(-gains_[m].expected(d)) * rotated(-rotations_[m].expected(d), displacement);
-}
-
-Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
-    if (displacement.norm() < kReach) return made_for(displacement);
-    end_reach();
-    const Vec3 made = made_for(displacement);
-    reach_ = {.going = true,
-              .number = reach_.number + 1,
-              .memory = memory_[static_cast<size_t>(acting_ - 1)],
-              .from = hand(sight),
-              .felt_from = felt_hand(),
-              .way = displacement,
-              .along = made.normalized()};
-    reach_.expects = forces_[reach_.memory].expected(reach_.along);
-    reach_.presses = -(1 + traits_.force_noise * presses_.normal()) * reach_.expects;
-    reach_.lag = forces_[reach_.memory].lag();
-    const Vec3 noise(random_.normal(), random_.normal(), random_.normal());
-    const double learned = rotations_[reach_.memory].learned(displacement.normalized());
-    const double sd = std::hypot(traits_.direction_noise, traits_.adapted_noise * learned) *
-                      (from_above(displacement) ? kGuided : 1);
-    const Vec3 way = noisy(1, traits_.extent_noise) * rotated(sd * noise, made);
-    return way;
-}
-
-/// The part of a planned stroke that noise makes it stray aside. `displacement`: from the hand to
-/// the target, as displayed.
-Vec3 Person::astray(const Vec3& way, const Vec3& displacement) const noexcept {
-    const Vec3 intended = made_for(displacement);
-    const double length = intended.norm();
-    return length < 1e-9 ? Vec3::Zero()
-                         : Vec3(way - way.dot(intended) / (length * length) * intended);
-}
-
-/// Whether a force field pushes the handles or the object in the hand.
-bool Person::pushed(const frame::Frame& frame) const noexcept {
-    const auto bodies = static_cast<int>(frame.bodies.size());
-    return std::any_of(
-        frame.task.loads.begin(), frame.task.loads.end(), [&](const frame::LoadFrame& load) {
-            return load.body >= bodies || (grip_.holds() && load.body == grip_.felt().body);
-        });
-}
-
-/// The push that the strain of the hand reveals in this Frame. If the hand has never been pushed in
-/// this state and is not being pushed now, small strains are attributed to the hand's own noise.
-Strain Person::strain(const frame::Frame& frame) const noexcept {
-    Strain out;
-    out.hand = centre_;
-    if (!reach_.going || reach_.duration == 0) return out;
-    const double done = (now_ - reach_.begin) / reach_.duration;
-    const double delayed = done - reach_.lag / reach_.duration;
-    if (delayed >= 1 || (forces_[reach_.memory].empty() && !pushed(frame))) return out;
-    const Aim aim = aim_.at(now_);
-    const Aim rate = aim_.rate(now_);
-    const auto count = static_cast<double>(places_.size());
-    const Vec3 off = centre_ - aim.centre + reach_.strayed_so_far - reach_.followed;
-    const Vec3 drift = velocity_ - rate.centre + reach_.straying - reach_.following;
-    out.push_W = stiffness() * off + impedance_.damping * drift;
-    if (grip_.holds()) {
-        out.push_W -= grip_.inertial() / count;
-        out.push_W.z() = 0;  // the weight of an object has a memory of its own
-    }
-    // a push that the hand opposed is no longer felt, but it did act
-    out.push_W -= aim_.rate(now_ - reach_.lag).centre.dot(reach_.along) * reach_.presses;
-    if (delayed > 0) out.speed = velocities_.before(reach_.lag).dot(reach_.along);
-    out.time = now_ - reach_.begin;
-    out.reach = reach_.number;
-    return out;
-}
-
-/// Accumulates the push on the hand. Between trials, the push may end before the movement does.
-void Person::feel_strain() noexcept {
-    const Strain& felt = strains_.before(traits_.visual_delay);
-    if (!reach_.going || between_ || felt.reach != reach_.number) return;
-    reach_.push += felt.speed * felt.push_W;
-    reach_.moved += felt.speed * felt.speed;
-    reach_.pushes += felt.push_W;
-    reach_.timed_pushes += felt.time * felt.push_W;
-    reach_.speeds += felt.speed;
-    reach_.timed_speeds += felt.time * felt.speed;
-    ++reach_.ticks;
-}
-
-/// Learns how much later than expected the push of this reach came, if it was clearly felt.
-void Person::learn_lag() noexcept {
-    const double total = reach_.pushes.norm();
-    if (total < kClearPush * reach_.ticks || reach_.speeds <= 0) return;
-    const double middle = reach_.timed_pushes.dot(reach_.pushes) / (total * total);
-    forces_[reach_.memory].learn_lag(middle - reach_.timed_speeds / reach_.speeds);
-}
-
-/// Moves the noise of a reach. It is a noise of the force that moves the arm, so that a hand that
-/// nothing holds strays by s(t), but a hand that is held, as by the walls of a channel, presses
-/// with no more than that force. With the arm's mass m, and the spring k and damper c between the
-/// arm, which strays by z, and the hand, which follows by h,
-///
-///     m z'' = m s'' - k (z - h) - c (z' - h')        held_back = z - s
-///
-/// h is the hand's deviation from the way without noise, as far as it lies between 0 and z: the
-/// rest was caused by something else.
-void Person::stray() noexcept {
-    const double most = reach_.strayed.norm();
-    if (!reach_.going || reach_.duration == 0 || most == 0) return;
-    const Vec3 aside = reach_.strayed / most;
-    const model::MinimumJerk share = model::minimum_jerk((now_ - reach_.begin) / reach_.duration);
-    const double rate = most * share.rate / reach_.duration;
-    const double z = most * share.share + reach_.held_back.dot(aside);
-    const double z_rate = rate + reach_.held_back_rate.dot(aside);
-    const double off = most * share.share + (centre_ - aim_.at(now_).centre).dot(aside);
-    const double off_rate = rate + (velocity_ - aim_.rate(now_).centre).dot(aside);
-    const double h = std::clamp(off, std::min(0.0, z), std::max(0.0, z));
-    const double h_rate = h == off ? off_rate : h == z ? z_rate : 0;
-    reach_.strayed_so_far = most * share.share * aside;
-    reach_.straying = rate * aside;
-    reach_.followed = h * aside;
-    reach_.following = h_rate * aside;
-    const double holds = stiffness() * (z - h) + impedance_.damping * (z_rate - h_rate);
-    const auto count = static_cast<double>(places_.size());
-    reach_.held_back_rate -= count * holds / kArmMass * tick_ * aside;
-    reach_.held_back += reach_.held_back_rate * tick_;
-}
-
-/// Adds a stroke to the reach that makes up for a jump of the target or of the cursor.
-void Person::redirect(const Vec3& displacement) noexcept {
-    ++reach_.jumps;
-    aim_.add({made_for(displacement), 0, 0}, now_, std::max(kRedirected, aim_.end() - now_));
-    // a reach that was redirected does not tell how well it was planned
-    reach_.mended = reach_.ended = true;
-    if (!reach_.seen) reach_.pushed = reach_.moved > 0;
-    reach_.seen = true;
-}
-
-/// Answers jumps of the target and of the cursor within a reach, once they have been seen for a
-/// moment: what jumps as a trial ends needs no answer.
-void Person::follow_jumps(const Sight& sight) noexcept {
-    const Vec3 off_felt = sight.hand - felt_hand();
-    const Vec3 jump = off_felt - off_felt_;
-    off_felt_ = off_felt;
-    if (!reach_.going || reach_.duration == 0 || doing_ != Doing::moving || between_) return;
-    if (reach_.jumps >= kMostJumps) return;
-    const bool cursor_jumps = sight.hand_shown && !cursor_.is_held() && jump.norm() > kJump;
-    if (cursor_jumps) reach_.cursor_off += jump;
-    const Vec3 aside = target(sight, steps()[step_]) - reach_.goal;
-    const bool off = aside.norm() > kJump || reach_.cursor_off != Vec3::Zero();
-    if (!off) reach_.jumped_at = now_;
-    if (!off || now_ < reach_.jumped_at + kSeenJump) return;
-    redirect(aside - reach_.cursor_off);
-    reach_.goal += aside;
-    reach_.from += reach_.cursor_off;
-    reach_.cursor_off = Vec3::Zero();
-}
-
-/// Corrects part of a reach's error as soon as its direction is visible, and judges the direction
-/// before the effect of the correction becomes visible.
-void Person::watch_reach(const Sight& sight) noexcept {
-    if (!reach_.going || reach_.seen || !sight.hand_shown || shows_earlier_reach()) return;
-    const Vec3 shown = sight.hand - reach_.from;
-    const double length = reach_.way.norm();
-    if (!reach_.mended && shown.norm() >= kGlance * length) {
-        reach_.mended = true;
-        const Vec3 arm = look(shown, traits_.visual_noise, random_).normalized();
-        const Vec3 missed = reach_.way - length * arm;
-        const double left = std::max(kShortest, aim_.end() - now_);
-        // an error of this size or less is seen in 95 % of the reaches that go right
-        const double noise = kSurely * traits_.visual_noise / shown.norm();
-        const double angle = rotation_between(reach_.way / length, arm).norm();
-        const double share = traits_.online_correction *
-                             std::max(0.0, 1 - std::pow(noise / std::max(angle, 1e-9), 2));
-        if (doing_ == Doing::moving && share > 0 && !cursor_.is_held())
-            aim_.add({share * made_for(missed), 0, 0}, now_, left);
-    }
-    if (shown.norm() < kJudged * length) return;
-    reach_.seen = true;
-    const Vec3 arm = look(shown, traits_.visual_noise, random_);
-    Vec3 wanted = reach_.way;
-    reach_.pushed = reach_.moved > 0;  // later pushes belong to the next state
-    if (reach_.pushed) {
-        // a pushed hand is seen where it is felt to be, turned by the expected rotation
-        const Vec3 felt = felt_where_shown() - reach_.felt_from;
-        wanted = rotated(rotations_[reach_.memory].expected(reach_.way.normalized()), felt);
-    }
-    reach_.error = rotation_between(wanted.normalized(), arm.normalized());
-}
-
-/// When the first stroke of a reach has ended, judges the extent of the reach and learns from it. A
-/// held cursor shows how far the hand had come when the cursor froze, not where the hand stopped.
-void Person::judge_extent(const Sight& sight) noexcept {
-    if (!reach_.going || reach_.ended || !sight.hand_shown || shows_earlier_reach()) return;
-    reach_.ended = true;
-    const double shown =
-        look(sight.hand - reach_.from, traits_.visual_noise, random_).dot(reach_.way.normalized());
-    const double least = 0.1 * reach_.way.norm();  // shorter movements do not reveal the extent
-    if (shown < least) return;
-    const Vec3 d = reach_.way.normalized();
-    double wanted = reach_.way.norm();
-    if (reach_.pushed || cursor_.is_held()) {
-        const Vec3 felt = felt_where_shown() - reach_.felt_from;
-        wanted = std::exp(gains_[reach_.memory].expected(d)) * felt.norm();
-        if (wanted < least) return;
-    }
-    gains_[reach_.memory].learn(d, std::log(shown / wanted));
-}
-
-void Person::end_reach() noexcept {
-    if (reach_.going && reach_.seen) {
-        rotations_[reach_.memory].learn(reach_.way.normalized(), reach_.error);
-        if (reach_.pushed) {
-            forces_[reach_.memory].learn(reach_.along, reach_.push / reach_.moved - reach_.expects);
-            learn_lag();
-        }
-    }
-    aim_.shift({reach_.held_back, 0, 0});
-    reach_.held_back = reach_.held_back_rate = Vec3::Zero();
-    reach_.going = false;
-}
-
-/// Corrects the visible endpoint of a reach with another stroke. Returns whether the reach
-/// continues, either with a stroke or because its endpoint is not visible yet.
-bool Person::correct(const Sight& sight) noexcept {
-    const TaskPlan::Step& step = steps()[step_];
-    if (step.step.reach.index < 0 || corrections_ >= kMostCorrections) return false;
-    const double still = std::min(moved_at_, aim_.end() + kPatience);
-    if (now_ < std::max(aim_.end() + kSettled, still) + traits_.visual_delay) return true;
-    if (!sight.hand_shown) return false;  // a hidden hand is assumed to be at its goal
-    judge_extent(sight);
-    if (cursor_.is_held()) return false;  // a held cursor does not follow the hand
-    const Vec3 missed = look(target(sight, step) - sight.hand, traits_.visual_noise, random_);
-    if (missed.norm() < kGoodEnough) return false;
-    // if the display rotates movements by more than 70 degrees, each stroke leads further away
-    const bool worse = missed.norm() > std::max(kReach, kWorse * missed_);
-    if (corrections_ > 0 && worse && !reach_.pushed) return false;
-    missed_ = missed.norm();
-    ++corrections_;
-    aim_.add({made_for(missed), 0, 0}, now_, kShortest);
-    return true;
 }
 
 /// Answers whether the last movement looked larger than it felt. Of the keys for which the state

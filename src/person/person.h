@@ -1,7 +1,8 @@
 // A simulated person who sees the display, feels the handles, and moves the simulated hand. The
 // person knows what each state of the task demands (the hand steps in the file), but not the kinds
 // of trials or the perturbations, which can only be seen and felt. The fingers of a second hand
-// follow the steps that name them, exactly as written in the file.
+// follow the steps that name them, exactly as written in the file. person_reach.cpp contains its
+// reaches, person.cpp all else.
 #pragma once
 
 #include <memory>
@@ -53,6 +54,10 @@ class Person final : public task::SeeingDriver {
     const ForceMemory& forces(size_t state) const { return forces_[memory_[state]]; }
 
   private:
+    static constexpr double kReach =
+        0.03;  // shortest movement from which rotations are learned [m]
+    static constexpr double kShortest = 0.2;  // shortest duration of a stroke [s]
+
     hand::FingerTarget do_target(int finger, double t) const noexcept override;
     void do_see(const frame::Frame& frame) noexcept override;
     char do_take_key() noexcept override;
