@@ -12,7 +12,7 @@ namespace {
 using task::TaskPlan;
 
 constexpr double kGlance = 0.15;      // share of a reach after which the person corrects it
-constexpr double kSurely = 2.45;      // 95 % of errors in two axes are within so many SD
+constexpr double kSurely = 1.41;      // usual error of a look in two axes, in SD of one
 constexpr double kJudged = 0.4;       // share of a reach after which its error is judged
 constexpr double kSettled = 0.05;     // time from a stroke until its end is judged [s]
 constexpr double kGoodEnough = 4e-3;  // distance from the target that is good enough [m]
@@ -20,7 +20,7 @@ constexpr int kMostCorrections = 4;
 constexpr double kWorse = 1.2;     // factor of error growth at which the person gives up correcting
 constexpr double kOver = 0.02;     // vertical distance above which the hand moves in two parts [m]
 constexpr double kGuided = 0.4;    // ratio of such a movement's noise to a reach's
-constexpr double kArmMass = 1;     // mass of an arm that the hand has to move with it [kg]
+constexpr double kArmMass = 0.8;   // mass of an arm that the hand has to move with it [kg]
 constexpr double kDrifts = 3e-3;   // speed above which the hand drifts rather than rests [m/s]
 constexpr double kGiving = 0.04;   // time constant with which a waiting arm gives way [s]
 constexpr double kPatience = 0.5;  // longest time for which the hand is awaited to be still [s]
@@ -183,6 +183,13 @@ void Person::stray() noexcept {
     reach_.straying = rate * aside;
     reach_.followed = h * aside;
     reach_.following = h_rate * aside;
+    if (now_ > reach_.begin + reach_.duration) {
+        // the arm rests where its stroke has led, and gives way to what holds the hand elsewhere
+        reach_.held_back_rate.setZero();
+        if (std::abs(velocity_.dot(aside)) < kDrifts)
+            reach_.held_back -= std::min(1.0, tick_ / kGiving) * (z - h) * aside;
+        return;
+    }
     const double holds = stiffness() * (z - h) + impedance_.damping * (z_rate - h_rate);
     const auto count = static_cast<double>(places_.size());
     reach_.held_back_rate -= count * holds / kArmMass * tick_ * aside;
@@ -230,7 +237,7 @@ void Person::watch_reach(const Sight& sight) noexcept {
         const Vec3 arm = look(shown, traits_.visual_noise, random_).normalized();
         const Vec3 missed = reach_.way - length * arm;
         const double left = std::max(kShortest, aim_.end() - now_);
-        // an error of this size or less is seen in 95 % of the reaches that go right
+        // of an error that is no larger than the noise of sight, nothing is corrected
         const double noise = kSurely * traits_.visual_noise / shown.norm();
         const double angle = rotation_between(reach_.way / length, arm).norm();
         const double share = traits_.online_correction *

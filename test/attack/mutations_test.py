@@ -106,7 +106,8 @@ class Mutations(Attack):
         here = os.getcwd().encode() + b"/"
         contents = [pathlib.Path(file).read_bytes() for file in kinds]
         if name.endswith(".yaml"):
-            contents = [content.replace(b"../", here) for content in contents]
+            contents = [content.replace(b"../", here).replace(b"based_on: ", b"based_on: " + here + b"populations/")
+                        for content in contents]
         refused = 0
         for batch in range(0, each, BATCH):
             place = pathlib.Path(tempfile.mkdtemp(dir=self.folder))

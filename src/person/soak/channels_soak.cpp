@@ -116,14 +116,14 @@ Over over(const Indices& all, size_t from, size_t to) {
 void expect_ratio(const char* what, double simulated, double real) {
     fmt::print("  {:38s} {:.3f}   people {:.3f}   ratio {:.2f}\n", what, simulated, real,
                simulated / real);
-    EXPECT_GE(simulated / real, 0.6) << what;
-    EXPECT_LE(simulated / real, 1.5) << what;
+    EXPECT_GE(simulated / real, 0.7) << what;
+    EXPECT_LE(simulated / real, 1.4) << what;
 }
 
 void expect_near(const char* what, double simulated, double real) {
     fmt::print("  {:38s} {:.2f}    people {:.2f}    off by {:+.2f}\n", what, simulated, real,
                simulated - real);
-    EXPECT_NEAR(simulated, real, 0.15) << what;
+    EXPECT_NEAR(simulated, real, 0.18) << what;  // people's two groups differ by as much
 }
 
 TEST(Channels, OfSimulatedPeopleAreLikeThoseOfPeople) {
