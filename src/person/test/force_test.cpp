@@ -176,7 +176,7 @@ bool gives_back(double rate, const analysis::Interval& interval) {
 }
 
 TEST(Forces, OfANoisyPersonGiveBackTheRatesOfBothProcesses) {
-    Traits traits = noisy_person(4.3 * kDegree);
+    Traits traits = noisy_person(1.5 * kDegree);
     traits.force_slow_learning = 0.03;
     const Measured all = measured(traits);
     const analysis::TwoRateFit fit = analysis::fit_two_rate(all.index, all.trials);
