@@ -23,9 +23,9 @@
 #include "event_words.h"
 #include "film.h"
 #include "help_page.h"
+#include "icons.h"
 #include "layers_menu.h"
 #include "moment_list.h"
-#include "player_icons.h"
 #include "recording/log_scene.h"
 #include "rows/episode_row.h"
 #include "rows/event_row.h"
@@ -112,8 +112,8 @@ QWidget* SessionPlayer::make_controls() {
     auto* row = new QWidget;
     auto* layout = new QHBoxLayout(row);
     layout->setContentsMargins(0, 4, 0, 0);
-    const auto button = [&](PlayerIcon icon, const QString& what, auto done) {
-        auto* out = new QPushButton(player_icon(icon, palette()), "");
+    const auto button = [&](std::string_view shape, const QString& what, auto done) {
+        auto* out = new QPushButton(icon(shape), "");
         out->setToolTip(what);
         out->setAccessibleName(what);
         out->setFocusPolicy(Qt::NoFocus);
@@ -122,15 +122,14 @@ QWidget* SessionPlayer::make_controls() {
         layout->addWidget(out);
         return out;
     };
-    button(PlayerIcon::previous_moment, tr("Previous moment (Page Up)"),
-           [this] { next_moment(-1); });
-    button(PlayerIcon::previous_tick, tr("Previous tick (Left)"), [this] { step(-1); });
+    button(shapes::kPrevious, tr("Previous moment (Page Up)"), [this] { next_moment(-1); });
+    button(shapes::kBack, tr("Previous tick (Left)"), [this] { step(-1); });
     play_ =
-        button(PlayerIcon::play, tr("Play, or stop (Space)"), [this] { play(!timer_.isActive()); });
+        button(shapes::kPlay, tr("Play, or stop (Space)"), [this] { play(!timer_.isActive()); });
     play_->setText(tr("Play"));
     play_->setFixedWidth(90);
-    button(PlayerIcon::next_tick, tr("Next tick (Right)"), [this] { step(1); });
-    button(PlayerIcon::next_moment, tr("Next moment (Page Down)"), [this] { next_moment(1); });
+    button(shapes::kForward, tr("Next tick (Right)"), [this] { step(1); });
+    button(shapes::kNext, tr("Next moment (Page Down)"), [this] { next_moment(1); });
     auto* speed = new QComboBox;
     speed->setAccessibleName(tr("Speed"));
     speed->setFocusPolicy(Qt::NoFocus);
@@ -331,7 +330,7 @@ void SessionPlayer::go_to(double time) {
 
 void SessionPlayer::play(bool on) {
     play_->setText(on ? tr("Stop") : tr("Play"));
-    play_->setIcon(player_icon(on ? PlayerIcon::stop : PlayerIcon::play, palette()));
+    play_->setIcon(icon(on ? shapes::kPause : shapes::kPlay));
     if (!on) return timer_.stop();
     if (time_ >= log_.end()) go_to(log_.begin());
     clock_.start();
