@@ -511,12 +511,7 @@ void Person::begin_step(const Sight& sight) noexcept {
     Aim way;
     if (!grip_.holds()) way.aperture = wanted - aperture;
     if (next.step.reach.index >= 0) {
-        const Vec3 goal = target(sight, next);
-        const Vec3 seen = look(goal, traits_.visual_noise, random_) -
-                          look(hand(sight), traits_.visual_noise, random_);
-        way.centre = plan_reach(sight, seen);
-        reach_.goal = goal;
-        reach_.strayed = astray(way.centre, goal - hand(sight));
+        way.centre = plan_reach(sight, target(sight, next));
     } else {
         way.centre = noisy(1, traits_.extent_noise) * numbers_.of(next.step.move);
     }

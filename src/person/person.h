@@ -75,7 +75,7 @@ class Person final : public task::SeeingDriver {
     void finish_step(const Sight& sight) noexcept;
     void move(const Aim& way, double duration, const Sight& sight) noexcept;
     void rest() noexcept;
-    Vec3 plan_reach(const Sight& sight, const Vec3& displacement) noexcept;
+    Vec3 plan_reach(const Sight& sight, const Vec3& goal) noexcept;
     Vec3 astray(const Vec3& way, const Vec3& displacement) const noexcept;
     bool pushed(const frame::Frame& frame) const noexcept;
     Strain strain(const frame::Frame& frame) const noexcept;

@@ -12,7 +12,7 @@ namespace {
 using task::TaskPlan;
 
 constexpr double kGlance = 0.15;      // share of a reach after which the person corrects it
-constexpr double kSurely = 1.41;      // usual error of a look in two axes, in SD of one
+constexpr double kLookError = 1.41;   // usual error of a look in two axes, in SD of one
 constexpr double kJudged = 0.4;       // share of a reach after which its error is judged
 constexpr double kSettled = 0.05;     // time from a stroke until its end is judged [s]
 constexpr double kGoodEnough = 4e-3;  // distance from the target that is good enough [m]
@@ -70,7 +70,10 @@ Vec3 Person::made_for(const Vec3& displacement) const noexcept {
     return std::exp(-gains_[m].expected(d)) * rotated(-rotations_[m].expected(d), displacement);
 }
 
-Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
+/// Plans a reach from where the hand is seen to `goal`. Returns the hand's movement.
+Vec3 Person::plan_reach(const Sight& sight, const Vec3& goal) noexcept {
+    const Vec3 displacement = look(goal, traits_.visual_noise, random_) -
+                              look(hand(sight), traits_.visual_noise, random_);
     if (displacement.norm() < kReach) return made_for(displacement);
     end_reach();
     const Vec3 made = made_for(displacement);
@@ -80,7 +83,8 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
               .from = hand(sight),
               .felt_from = felt_hand(),
               .way = displacement,
-              .along = made.normalized()};
+              .along = made.normalized(),
+              .goal = goal};
     reach_.expects = forces_[reach_.memory].expected(reach_.along);
     reach_.presses = -(1 + traits_.force_noise * presses_.normal()) * reach_.expects;
     reach_.lag = forces_[reach_.memory].lag();
@@ -89,6 +93,7 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
     const double sd = std::hypot(traits_.direction_noise, traits_.adapted_noise * learned) *
                       (from_above(displacement) ? kGuided : 1);
     const Vec3 way = noisy(1, traits_.extent_noise) * rotated(sd * noise, made);
+    reach_.strayed = astray(way, goal - hand(sight));
     return way;
 }
 
@@ -238,7 +243,7 @@ void Person::watch_reach(const Sight& sight) noexcept {
         const Vec3 missed = reach_.way - length * arm;
         const double left = std::max(kShortest, aim_.end() - now_);
         // of an error that is no larger than the noise of sight, nothing is corrected
-        const double noise = kSurely * traits_.visual_noise / shown.norm();
+        const double noise = kLookError * traits_.visual_noise / shown.norm();
         const double angle = rotation_between(reach_.way / length, arm).norm();
         const double share = traits_.online_correction *
                              std::max(0.0, 1 - std::pow(noise / std::max(angle, 1e-9), 2));
