@@ -54,6 +54,7 @@ class Head(Window):
 
     def still(self):
         """What the participant's window shows, once it no longer changes."""
+        self.settle()  # on a busy machine a picture that is late does not change either
         last = None
         for _ in range(40):
             time.sleep(1)

@@ -108,6 +108,7 @@ class Rigs(Window):
         self.on_fakes(0, "outlets: [{ kind: serial, options: { port: /dev/no-such-line } }]\n")
         self.ask_to_start()
         time.sleep(2)
+        self.settle()
         self.assertEqual(self.xdotool("search", "--onlyvisible", "--name", "^Is the calibration still valid"), "")
         self.assertEqual(glob.glob(self.out + "/*"), [])
         self.xdotool("windowfocus", self.name)

@@ -201,16 +201,17 @@ class Window(unittest.TestCase):
         def lists():
             return self.xdotool("search", "--onlyvisible", "--name", "^Before the session").split()
 
-        def answered():
+        list = self.wait("the checklist", lists)[-1]
+
+        def has_keyboard():
             """There is no window manager, so that the list may not have the keyboard at once."""
             self.xdotool("windowfocus", list)
             time.sleep(0.3)
-            self.key("Return")
-            time.sleep(0.3)
-            return not lists()
+            return self.xdotool("getwindowfocus").strip() == list
 
-        list = self.wait("the checklist", lists)[-1]
-        self.wait("the checklist's end", answered)
+        self.wait("the checklist's keyboard", has_keyboard)
+        self.key("Return")  # once: a second one could go to the window below, and start again
+        self.wait("the checklist's end", lambda: not lists())
         self.xdotool("windowfocus", self.name)
 
     def ended(self, state):
