@@ -13,7 +13,7 @@ BLOCK = "scenes/block-on-table.yaml"
 
 
 def ticks(step):
-    """Time of a tick of two fingers that hold the block, from 1.5 s on [us]."""
+    """Duration of a tick in which two fingers hold the block, from 1.5 s on [us]."""
     world = dh.World(BLOCK)
     n = 1000
 
@@ -37,8 +37,7 @@ def directed(world, n):
 
 
 def grasps(n=100, seconds=1.0):
-    """Seconds for this many environments that hold the block, and for the program's own steps of the same worlds,
-    without the environments' work between steps."""
+    """Seconds for this many environments that hold the block, and for stepping the same worlds without environments."""
     many = dh.env.Grasps("lift", n)
     close = np.tile([1.0, 0, 0, -1.0, 0, 0], (n, 1)) / 2
     still = np.zeros((n, 6))
@@ -65,7 +64,7 @@ def grasps(n=100, seconds=1.0):
             dh.step_all(many.worlds, many.ticks)
         return time.perf_counter() - begin
 
-    # in turn, and the shortest of each: longer runs were disturbed
+    # alternates them, and takes the shortest run of each: longer runs were disturbed
     taken = [(environment(), alone()) for _ in range(5)]
     return min(e for e, _ in taken), min(a for _, a in taken), n * steps
 

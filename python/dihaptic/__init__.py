@@ -8,7 +8,7 @@
     session.plot("grip_force", "load_force", align="lift_off")
 
 docs/python.md shows what is possible, and help(dh) lists them. Reading works on any computer (dihaptic-read).
-Functions that need the program, or its module `_native`, raise an ImportError there that gives the remedy.
+There, functions that need the program, or its module `_native`, raise an ImportError that gives the remedy.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Facts about the program that reading a session requires; written by python/write_facts.py."""
+"""Facts about the program that are needed to read a session; python/write_facts.py writes them."""
 
 from __future__ import annotations
 

@@ -31,10 +31,10 @@ MOST_YAML = 16_000_000
 _BACKUP = "Restore it from a backup."
 #: The last line of session.yaml; a file without it has been cut off.
 _END = "...\n"
-#: More levels of nested lists and keys than any file of the program has. The parser, written in C, does not survive a
+#: More levels of nested lists and keys than any file of the program has. The parser, which is written in C, crashes on a :
 #: hundred thousand of them.
 _MOST_NESTED = 200
-#: What is wrong with a part of a file that is not of this kind.
+#: The fault of a part of a file that is not of this kind.
 _WRONG: dict[type, str] = {dict: "has no keys", list: "is not a list of items with keys", str: "is not a single value"}
 #: A kind of part: keys with values, a list of these, or a single value.
 _Part = TypeVar("_Part", dict[str, Any], list[Any], str)
@@ -59,7 +59,7 @@ def why_unreadable(file: Path, most: float = math.inf) -> str:
         if status.st_size > most:
             return f"it has {status.st_size / 1e6:.0f} MB, and at most {most / 1e6:.0f} MB are read"
         os.close(os.open(file, os.O_RDONLY))
-    except (OSError, ValueError) as why:  # a ValueError: no file can have this name
+    except (OSError, ValueError) as why:  # it was a ValueError: no file can have this name
         return getattr(why, "strerror", None) or str(why)
     return ""
 
@@ -108,7 +108,7 @@ def read_session_info(folder: Path) -> dict[str, Any]:
 def part_of(
     document: dict[str, Any], key: str, kind: type[_Part], file: Path, remedy: str = _BACKUP, of: str = ""
 ) -> _Part:
-    """A part of a file's content, empty if there is none; `of`: the key in front of it. Raises Error when it is of
+    """A part of a file's content, empty if there is none; `of` is the key in front of it. Raises Error when it is of
     another kind."""
     part = document.get(key)
     if part is None or part == "":

@@ -13,10 +13,10 @@ import numpy as np
 from ._head import Head, read_session_info, tick_of, why_unreadable
 from .errors import Error, error
 
-#: What h5py raises on reading a damaged file, depending on which of its bytes are damaged.
+#: The exceptions that h5py raises when it reads a damaged file, depending on which bytes are damaged.
 _DAMAGE = (ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)
 
-#: More names than any session.nwb has: they have a few hundred.
+#: More names than any session.nwb contains: the usual number is a few hundred.
 _MOST_LINKS = 100_000
 
 
@@ -76,8 +76,7 @@ def _without_nwb(folder: Path) -> Error:
 
 
 def head_of_nwb(file: h5py.File) -> Head | None:
-    """The log's head from its copy in session.nwb, which is smaller to send than raw.log; None if an older version made
-    the file, without a head."""
+    """The log's head, from its copy in session.nwb, which is smaller than raw.log; None if an older version wrote no copy."""
     if "scratch/items" not in file:
         return None
     table = file["scratch/items"]
@@ -100,7 +99,7 @@ def _text(value: str | bytes) -> str:
 def _what_leads_out(file: h5py.File) -> list[str]:
     """Names with content in another file: links, data sets with external raw data, virtual data sets.
 
-    Looks at each group once, because links can make countless paths of a few groups. Raises ValueError when there are
+    Visits each group once, because links can create countless paths to a few groups. Raises ValueError when there are
     far too many links."""
     out = []
     groups = [file["/"]]

@@ -25,10 +25,10 @@ _REPEAT = "Restore it from a backup. If there is none, the session has to be rep
 
 
 def faults(folder: Path, info: dict[str, Any], name: str = "") -> list[str]:
-    """Known losses from, and changes to, session.yaml and a file of the session, in sentences.
+    """Sentences about what session.yaml and a file of the session are known to have lost, or how they were changed.
 
-    `info`: the content of session.yaml; `name`: name of the file; empty: no file. Raises Error when the seals cannot be
-    read.
+    `info` is the content of session.yaml, and `name` the name of the file (empty: no file). Raises Error when the seals
+    cannot be read.
     """
     found = []
     if lost := [key for key in _ALWAYS if not info.get(key)]:
@@ -43,8 +43,8 @@ def faults(folder: Path, info: dict[str, Any], name: str = "") -> list[str]:
 def broken_seals(folder: Path, info: dict[str, Any], name: str = "") -> list[str]:
     """The faults of session.yaml's seal, and of a table, an input, or session.nwb, in sentences.
 
-    None for a file that is never sealed, and, except for an input, in a session without seals. Raises Error when the
-    seals cannot be read.
+    None for a file that is never sealed and, unless it is an input, for any file of a session without seals. Raises Error
+    when the seals cannot be read.
     """
     file = folder / "session.yaml"
     found = []
@@ -56,7 +56,7 @@ def broken_seals(folder: Path, info: dict[str, Any], name: str = "") -> list[str
 
 
 def gone_tables(folder: Path, info: dict[str, Any]) -> dict[str, Problem]:
-    """What is wrong with each table that was sealed, or was an input, and no longer exists. Raises Error."""
+    """A fault for each table that was sealed, or was an input, and no longer exists. Raises Error."""
     file = folder / "session.yaml"
     names = [str(each.get("file")) for key in ("tables", "inputs") for each in part_of(info, key, list, file)]
     gone = [name for name in names if name.endswith(".csv") and not os.path.lexists(folder / name)]

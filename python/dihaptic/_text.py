@@ -12,8 +12,8 @@ class Plain(str):
 
 
 def to_json(value: Any) -> str:
-    r"""One line of JSON. Half of a surrogate pair, which is not a character, and with which Python represents an
-    unreadable byte, is written as Python's own escape for it.
+    r"""One line of JSON. Half of a surrogate pair, by which Python represents an unreadable byte, is not a character: it is
+    written as Python's own escape for it.
 
     >>> from dihaptic._text import to_json
     >>> print(to_json({"failed": "no file caf\udce9"}))

@@ -53,10 +53,10 @@ class Next:
 class BetweenTrials:
     """Decisions between trials: derive a class from this one, and pass an object of it to run().
 
-    decide() is called before the first trial, and after each attempt. It runs outside the session's process, so no tick
-    is late, however slow or wrong it is. In real time the next trial waits up to a second for its
-    answer; after a later answer, or an exception, the trials stay as in the file, and the session's notes report it.
-    On the virtual clock the session waits for the answer.
+    decide() is called before the first trial, and after each attempt. It runs outside the session's process, so that no tick
+    is late, however slow or faulty it is. In real time the next trial waits up to a second for its answer; after a later
+    answer, or an exception, the trials stay as in the file, and the session's notes report it. On the virtual clock the
+    session waits for the answer.
 
     The variables are those of the task: `variables: [{ name: load }]` in the experiment's file, whose formulas use
     them, as in `body: { body: block, weight_scale: load }` of a perturbation. Decisions are recorded, so that a replay
@@ -128,7 +128,7 @@ class BetweenTrials:
                 answer["next"] = int(chosen.trial_num)
             if chosen.message is not None:
                 answer["message"] = list(self.messages).index(chosen.message)
-        except Exception as why:  # whatever was raised, the session continues
+        except Exception as why:  # the session continues, whatever was raised
             self.failures.append(traceback.format_exc())
             return {"number": question["number"], "failed": f"{type(why).__name__}: {_text_of(why)}"}
         return answer

@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 _LIFT_MOMENTS = ["touch", "load_onset", "lift_off", "replacement", "release", "first_slip"]
 #: The remedy for a damaged table.
 _RESTORE = "Restore the table, or rebuild it from raw.log: dihaptic recover."
-#: Quantities with the same colour everywhere.
+#: Quantities that have the same colour in all charts.
 _COLOURS: dict[str, str] = facts()["colours"]
-#: Colours for all others, and for figures: distinct with any kind of colour vision (Okabe and Ito, 2008), in the order
-#: of use.
+#: Colours for all others, and for figures, in the order in which they are used; they are distinct with any kind of : colour
+#: vision (Okabe and Ito, 2008).
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
 
 
@@ -155,7 +155,7 @@ def _aligned(
 
 
 def _cut(session: Session, values: npt.NDArray[Any], time: float, ticks: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """The values at these ticks about a time; NaN where the session has none."""
+    """The values at these ticks around a time; NaN where the session has none."""
     at = int(np.searchsorted(session.t, time - session.tick / 2)) + ticks
     inside = (at >= 0) & (at < len(values))
     out = np.full(len(ticks), np.nan)

@@ -1,7 +1,7 @@
 """Environments for learners: two fingers lift or turn an object, or four hand it over, with the program's contact model.
 
-They have the interface of gymnasium (reset, step, spaces). Where gymnasium 1.1 or later is installed, they are its environments,
-created by `gymnasium.make("Dihaptic/Lift-v0")` and `gymnasium.make_vec`.
+They have the interface of gymnasium (reset, step, spaces). Where gymnasium 1.1 or later is installed, they are its
+environments, created by `gymnasium.make("Dihaptic/Lift-v0")` and `gymnasium.make_vec`.
 
 >>> import dihaptic as dh
 >>> environment = dh.env.Grasp("lift", seed=1)
@@ -56,7 +56,7 @@ class Box:
 
 
 class _Env:
-    """Replaces gymnasium.Env and gymnasium.vector.VectorEnv if they are not installed."""
+    """Stands in for gymnasium.Env and gymnasium.vector.VectorEnv if they are not installed."""
 
     metadata: dict[str, Any] = {}
     render_mode: str | None = None
@@ -116,8 +116,8 @@ class Grasps(_VectorEnv):
     the force on it, and the pressing force; the
     object's position, orientation (w, x, y, z), velocity and angular velocity; and the goal, in SI
     units. The reward is the negative distance from the goal, divided by its initial value, and 1 once the
-    goal is reached and held for 0.2 s, which ends the episode; `time` [s] truncates it. In
-    hand_over, progress counts only while the first hand does not touch the object.
+    goal is reached and held for 0.2 s, which ends the episode; `time` [s] truncates it. In hand_over, progress counts only
+    while the first hand is not touching the object.
 
     >>> import dihaptic as dh
     >>> many = dh.env.Grasps("lift", 3, seed=1)
@@ -171,8 +171,8 @@ class Grasps(_VectorEnv):
         options: Info | None = None,
     ) -> tuple[Array, Info]:
         """Restarts all episodes, or those of `which` worlds (their numbers, or an array such as `terminated |
-        truncated`); each gets its own goal. An episode that has ended restarts only in this way. gymnasium's form of
-        `which` is `options={"reset_mask": which}`."""
+        truncated`); each gets its own goal. Only this restarts an episode that has ended. In gymnasium's form, `which` is
+        `options={"reset_mask": which}`."""
         _refuse_options(options, "reset_mask")
         if options and which is None:
             which = options["reset_mask"]
@@ -206,7 +206,7 @@ class Grasps(_VectorEnv):
         return out
 
     def step(self, actions: npt.ArrayLike) -> tuple[Array, Array, npt.NDArray[np.bool_], npt.NDArray[np.bool_], Info]:
-        """Returns the observations, the rewards, the flags of terminated and of truncated episodes, and info."""
+        """Returns the observations, the rewards, the flags of terminated and of truncated episodes, and the info."""
         if not self._began.all():
             raise error("an episode has not started", "Call reset() first.")
         given = np.asarray(actions, dtype=float).reshape(len(self.worlds), self._fingers, 3)

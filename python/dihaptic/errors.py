@@ -1,4 +1,4 @@
-"""Errors about wrong inputs, with file, line, key and remedy."""
+"""Errors about invalid inputs, with file, line, key and remedy."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Problem:
 
 
 class Error(ValueError):
-    """A wrong input: a file, a name, a table.
+    """An invalid input: a file, a name, a table.
 
     Its text is what the command line would print; `problems` lists its parts.
 

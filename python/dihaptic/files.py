@@ -91,7 +91,7 @@ class Part:
         return [*object.__dir__(self), *self._keys, *self.known()]
 
     def __copy__(self: P) -> P:
-        return copy.deepcopy(self)  # an object that shared its lists would not be a copy
+        return copy.deepcopy(self)  # a copy must not share its lists with the original
 
     def __repr__(self) -> str:
         names = {key: key.isidentifier() and not keyword.iskeyword(key) for key in self._keys}
@@ -133,7 +133,7 @@ class Part:
         return part
 
     def _to_raw(self) -> dict[str, Any]:
-        """Unchanged values stay as they were written, to the letter."""
+        """Unchanged values stay exactly as they were written."""
         return {
             key: self._raw[key] if key in self._raw and _value(self._raw[key]) == value else _to_raw(value)
             for key, value in self._keys.items()
@@ -191,7 +191,7 @@ class File(Part):
         []
         """
         path = Path(file)
-        # all texts exist before any file is touched, and each file is replaced as a whole
+        # all texts are made before any file is touched, and each file is replaced as a whole
         written = self._written(path)
         for name, text in written.items():
             _native.check_yaml(text, str(name))
@@ -307,7 +307,7 @@ class Rig(File):
 class Experiment(File):
     """An experiment: a scene, a rig, and trials (docs/files/experiment.md).
 
-    `scene` and `rig` are paths, from the experiment's own folder, or a Scene and a Rig.
+    `scene` and `rig` are paths relative to the experiment's folder, or a Scene and a Rig.
 
     >>> import dihaptic as dh
     >>> lift = dh.Experiment.load("experiments/first-trials.yaml")
@@ -326,7 +326,7 @@ Input = Union[str, Path, File]
 
 @contextlib.contextmanager
 def on_disk(given: Input) -> Iterator[str]:
-    """Path of a file ("" for none), or of a temporary file of an object.
+    """Path of a file ("" for none), or of a temporary file that contains an object.
 
     A file that is missing in the working folder is looked for among those kept for all studies, and those that come
     with the program.
@@ -393,7 +393,7 @@ def _within(value: Any) -> Iterator[Part]:
 
 def _to_raw(value: Any) -> Any:
     if isinstance(value, File):
-        return ""  # name of its file, once known
+        return ""  # name of its file, once it is known
     if isinstance(value, Part):
         return value._to_raw()
     if isinstance(value, list):

@@ -1,4 +1,4 @@
-"""Fits models to people's data: the functions of the program's report, for your own arrays."""
+"""Fits models to people's data: makes the fits of the program's report available for your own arrays."""
 
 from __future__ import annotations
 
@@ -84,8 +84,8 @@ class PsychometricFit:
     shape: float  #: the normal's standard deviation, the logistic's scale, the Weibull's exponent
     guess: float
     lapse: float
-    deviance: float  #: twice the log likelihood lost to the model with each level's own share
-    shape_unknown: bool  #: the answers do not determine the shape, which is then meaningless
+    deviance: float  #: twice the log likelihood lost against the model with each level's own share
+    shape_unknown: bool  #: whether the answers leave the shape undetermined, and so meaningless
     intervals: dict[str, Interval]  #: 95 % profile intervals, by parameter
 
     def probability(self, level: float | Numbers) -> Any:
@@ -168,10 +168,9 @@ def fit_psychometric(
 
     Either `answers` has one answer for each of `levels`, or `yes` and `trials` count them by level.
     `sigmoid`: normal, logistic or weibull. `guess`: the share of "yes" by guessing, or "lapse" for "more or less?"
-    questions, where it equals the lapse rate. The lapse rate is fitted
-    within 0 to `max_lapse`. `shape`: the known shape; required after an adaptive procedure, whose levels make the
-    function look steeper than it is. Raises Error for fewer than two levels
-    and for impossible counts.
+    questions, where it equals the lapse rate. The lapse rate is fitted between 0 and `max_lapse`. `shape`: the known shape;
+    required after an adaptive procedure, whose levels make the function look steeper than it is. Raises Error for fewer than
+    two levels and for impossible counts.
 
     >>> import dihaptic as dh
     >>> fit = dh.fit_psychometric([1, 2, 3, 4, 5], yes=[0, 1, 5, 9, 10], trials=[10] * 5, guess=0)

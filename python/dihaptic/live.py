@@ -72,7 +72,7 @@ class Live:
         self.session = folder  #: its folder
         self.states: list[str] = greeting["states"]  #: the task's states, or phases
         self.outcomes: list[str] = greeting["outcomes"]  #: possible outcomes of attempts
-        self.units: dict[str, str] = {}  #: units of the watched values, by expression
+        self.units: dict[str, str] = {}  #: units of the values that are watched, by expression
 
     def __enter__(self) -> Live:
         return self
@@ -131,7 +131,7 @@ class Live:
         self._send({"end": True})
 
     def _send(self, message: dict[str, Any]) -> None:
-        with suppress(ConnectionError):  # it is over, as the next moment would show
+        with suppress(ConnectionError):  # the session is over, as the next moment would show
             self._socket.send(to_json(message).encode())
 
     def _receive(self) -> dict[str, Any] | None:

@@ -54,7 +54,7 @@ class Seen:
 
     @property
     def message(self) -> str:
-        """The text over the scene, with numbers as {names}."""
+        """The text over the scene, in which numbers are {names}."""
         return self._sitting.message()
 
     @property

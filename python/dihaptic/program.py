@@ -73,11 +73,11 @@ def run(
     person: Person | None = None,
     progress: bool = True,
 ) -> Session:
-    """Runs a scene or an experiment, a file or an object, as `dihaptic run` does; opens its session.
+    """Runs a scene or an experiment, given as a file or an object, as `dihaptic run` does, and opens its session.
 
-    `simulate`: a simulated person on simulated devices does the trials, drawn from `population`.
-    `clock`: real or virtual, as fast as possible; default: real only with real devices. `between`: chooses the
-    next trials. `person`: your own simulated person does them, in this process. With real devices, the command's output and
+    With `simulate`, a simulated person, drawn from `population`, does the trials on simulated devices.
+    `clock` is real, or virtual (as fast as possible); the default is real only with real devices. `between` chooses the next
+    trials. With `person`, your own simulated person does them, in this process. With real devices, the command's output and
     questions appear here, and Escape and Ctrl-C switch force off. A session that was interrupted, or whose force was
     switched off, is returned too, with a warning that gives the reason. Ctrl-C ends the session properly, and is raised
     again once its files are made. Raises Error for any fault in the files.
@@ -152,7 +152,7 @@ def recover(session: Session | str | Path, *, progress: bool = True) -> Session:
 def report(*sessions: Session | str | Path, out: str | Path = "", progress: bool = True) -> Path:
     """Makes the report of a session, or of a folder of sessions; returns its report.html.
 
-    Several are compared, and need a folder `out` for the page. Raises Error.
+    Several folders are compared, and require a folder `out` for the page. Raises Error.
 
     >>> import dihaptic as dh
     >>> dh.report(lift_session, progress=False).name
@@ -185,12 +185,15 @@ class _Answer:
     def __init__(self, code: int, output: list[str], said: list[str]) -> None:
         self.code = code
         self.output = output
-        self.said = said  # on standard error, without progress
+        self.said = said  # what it wrote on standard error, without its progress
 
 
 def call(command: Sequence[str], progress: bool, echo: bool = False) -> _Answer:
-    """Runs a command to its end. Raises Error when its input was invalid. `echo`: shows the output, since with real
-    devices a command asks questions, and explains how to switch force off."""
+    """Runs a command to its end.
+
+    Raises Error when its input was invalid. With `echo`, its output is shown, since with real devices a command asks
+    questions, and explains how to switch force off.
+    """
     with subprocess.Popen(
         [program(), *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace"
     ) as process:
@@ -232,7 +235,7 @@ def _watch(stream: IO[str], said: list[str], progress: bool) -> None:
     shown = False
     for line in stream:
         at = _PROGRESS.match(line)
-        if line.startswith("waiting: "):  # may last long, so it is shown at once
+        if line.startswith("waiting: "):  # a command may take long, so its output is shown at once
             sys.stderr.write(line)
             sys.stderr.flush()
         elif at is None:
@@ -275,7 +278,7 @@ def ended_of(answer: _Answer) -> Ended:
 
 
 def _open(ended: Ended) -> Session:
-    """Opens a session; any deviation becomes a warning at the call of run() or resume()."""
+    """Opens a session, and turns anything unexpected into a warning at the call of run() or resume()."""
     if not ended.good or any(line.startswith("WARNING: ") for line in ended.said):
         warnings.warn("\n".join(ended.said) or f"see {ended.folder}", stacklevel=3)
     return Session(ended.folder)

@@ -56,11 +56,11 @@ def _names_in(folder: Path) -> set[str]:
     """Names of the items in a folder. Raises Error."""
     try:
         return set(os.listdir(folder))
-    except (OSError, ValueError) as why:  # a ValueError: no folder can have this name
+    except (OSError, ValueError) as why:  # it was a ValueError: no folder can have this name
         remedy = "Name the folder that dihaptic rehearse has made."
         raise error(f"cannot be read: {getattr(why, 'strerror', why)}", remedy, file=str(folder)) from None
 
 
 def _is_person(folder: Path) -> bool:
-    """Whether a folder is one person's. Raises Error when this cannot be determined."""
+    """Whether a folder belongs to one person. Raises Error when this cannot be determined."""
     return os.path.isdir(folder) and bool(_names_in(folder) & {"person.yaml", "session.yaml"})

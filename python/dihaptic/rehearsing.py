@@ -47,11 +47,12 @@ def rehearse(
     """Lets simulated people do an experiment, like `dihaptic rehearse`, and collects their tables.
 
     People who are already in the folder are not done again. The tables do not depend on `jobs`.
-    `person`: makes your own simulated person for a number, from 1; default: people are drawn from `population`.
-    `between`: makes the rules that choose a person's next trials. Random numbers that these draw from `random` and
-    `numpy.random` depend on `seed` and the number; your own generator must be made from the number too, since people
-    may be done in separate processes. An exception in one of these ends the rehearsal, and so does an invalid decision;
-    people done before are kept. `keep_recordings`: also keeps each raw.log and session.nwb, hundreds of MB. Raises Error.
+    `person` makes your own simulated person for a number, from 1; by default, people are drawn from `population`.
+    `between` makes the rules that choose a person's next trials. Random numbers that these draw from `random` and
+    `numpy.random` depend on `seed` and the person's number; seed a generator of your own with that number too, since people
+    may be simulated in separate processes. An exception in one of these ends the rehearsal, and so does an invalid decision;
+    people who have finished are kept. `keep_recordings` also keeps each raw.log and session.nwb, hundreds of MB. Raises
+    Error.
 
     >>> import dihaptic as dh
     >>> study = dh.rehearse("experiments/first-trials.yaml", 2, out=f"{folder}/study", progress=False)
@@ -131,7 +132,7 @@ class _Study:
 
         if min(jobs, len(waiting)) <= 1:
             for number in waiting:
-                self._do(number)  # in this process, so that a debugger can stop in it
+                self._do(number)  # runs in this process, so that a debugger can stop in it
                 tell()
         else:
             self._in_processes(waiting, jobs, tell)
@@ -139,8 +140,8 @@ class _Study:
             sys.stderr.write("\r" + " " * 40 + "\r")
 
     def _in_processes(self, waiting: list[int], jobs: int, tell: Callable[[], None]) -> None:
-        """A process for each person, with a limited number at a time; after the first failure no more are started."""
-        fork = multiprocessing.get_context("fork")  # classes defined in a notebook exist there, too
+        """Runs a process for each person, a limited number at a time; after the first failure, no more are started."""
+        fork = multiprocessing.get_context("fork")  # classes that are defined in a notebook exist there, too
         running: dict[Connection, ForkProcess] = {}
         failed: BaseException | None = None
         numbers = iter(waiting)
@@ -166,7 +167,7 @@ class _Study:
                         tell()
                     elif failed is None:
                         failed = why
-        except BaseException:  # Ctrl-C: each process ends its session properly
+        except BaseException:  # on Ctrl-C, each process ends its session properly
             for process in running.values():
                 os.kill(process.pid or 0, signal.SIGINT)
             for process in running.values():
@@ -203,7 +204,7 @@ class _Study:
         place = _native.UnfinishedFolder.take(str(self.folder), ppid)
         if place is None:
             raise error("another program is doing this session now", "Wait until it has ended.", key=ppid)
-        if not place.is_done():  # another program may have just done it
+        if not place.is_done():  # another program may just have done it
             with self._drawing(number):
                 self._record(number, ppid, place)
         place.remove()

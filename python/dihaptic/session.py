@@ -92,7 +92,7 @@ class Session:
         'complete'
         """
         info = self._info
-        self._tell_changes("", stacklevel=4)  # one level is that of cached_property
+        self._tell_changes("", stacklevel=4)  # one level of the stack is that of cached_property
         return info
 
     @cached_property
@@ -134,7 +134,7 @@ class Session:
         """Raises Error when raw.log belongs to another session. Sessions of earlier versions have no identity."""
         try:
             own = self._info.get("identity", "")
-        except Error:  # each reader of a table or quantity warns of this
+        except Error:  # each access to a table or a quantity warns of this
             return
         if own and head.identity and own != head.identity:
             raise error(
@@ -161,13 +161,13 @@ class Session:
     def _gone_tables(self) -> dict[str, Problem]:
         try:
             return gone_tables(self.folder, self._info)
-        except Error:  # each reader of a table or quantity warns of this
+        except Error:  # each access to a table or a quantity warns of this
             return {}
 
     def table(self, name: str) -> pd.DataFrame:
         """A table by its name, with its units in `attrs`. Raises NotThere.
 
-        Warns of a table that was cut, edited or exchanged since the session ended.
+        Warns of a table that has been shortened, edited or replaced since the session ended.
 
         >>> import dihaptic as dh
         >>> dh.load(lift_session).table("lifts").lift.item()
@@ -230,7 +230,7 @@ class Session:
     def __getitem__(self, name: str) -> Any:
         """A quantity as a numpy array, or a list such as "contacts" as a pandas table.
 
-        Reads it from the disk; keep the result rather than request it twice. Raises NotThere.
+        It is read from the disk at each request, so keep the result. Raises NotThere.
         """
         if name in vocabulary.lists():
             with reading(self.folder):

@@ -42,12 +42,12 @@ class Study(Collected):
     """A study, opened by its file (docs/files/study.md): its participants, its recordings, and the tables that
     `dihaptic collect` has joined.
 
-    `rehearsed`: the folder of the study's rehearsal, whose simulated people are read in place of the participants. As
+    `rehearsed` is the folder of the study's rehearsal, whose simulated people are read in place of the participants. As
     in `dihaptic collect`, sessions in which a simulated person stood in for a participant (`dihaptic run --simulate`)
     do not belong to it.
 
     `title` is the study's title, `groups` has the names of its groups in the order of its file, and `folder` is the
-    folder of its participants and recordings. Everything else is read on request, and is as new as the files. Raises
+    folder of its participants and recordings. Everything else is read on request, and is as recent as the files. Raises
     Error when the file is not a study, or when there is no such rehearsal.
 
     >>> import dihaptic as dh
@@ -83,7 +83,7 @@ class Study(Collected):
         concealed = is_yes(allocation, "concealed", self.file, _CHECK, "allocation.")
         seed = part_of(allocation, "seed", str, self.file, _CHECK, "allocation.") or "1"
         codes = {name: _code_of(name, seed) for name in self.groups}
-        #: The name shown for a group, by the name or the code in participants.yaml.
+        #: The name shown for each group, by its name or code in participants.yaml.
         self._shown = {name: codes[name] if concealed else name for name in self.groups}
         self._shown.update({codes[name]: shown for name, shown in self._shown.items()})
 
@@ -133,10 +133,10 @@ class Study(Collected):
         session has none), `complete` and `folder` (path of the recording, for `dihaptic.load()`). A session has several
         rows if it was interrupted, and then resumed or started again.
 
-        `complete` means that the recording went on to its end, or that no trial was left when it broke off. `dihaptic
-        collect` takes the first complete recording of each session into the tables or, if there is none, the last one
-        if as many of its trials are done as `resuming` in the study's file asks for. Raises Error for a recording that
-        cannot be read, or is somebody else's.
+        `complete` means that the recording reached its end, or that no trial was left when it was interrupted. For the
+        tables, `dihaptic collect` takes the first complete recording of each session or, if there is none, the last one,
+        provided that as many of its trials are done as `resuming` in the study's file requires. Raises Error for a recording
+        that cannot be read, or is somebody else's.
 
         >>> import dihaptic as dh
         >>> study = dh.Study(f"{folder}/two-days.yaml", rehearsed=f"{folder}/rehearsal")
@@ -154,8 +154,8 @@ class Study(Collected):
         return pd.DataFrame(rows, columns=columns).astype({"complete": bool})
 
     def session(self, participant: str, study_session: str) -> Session:
-        """The recording of a participant's session that is in the tables: the first complete one, or the last one if
-        as many of its trials are done as `resuming` in the study's file asks for.
+        """The recording of a participant's session that the tables contain: the first complete one, or else the last one,
+        provided that as many of its trials are done as `resuming` in the study's file requires.
 
         Raises NotThere for an unknown participant or session, and Error when there is no such recording.
 
@@ -259,12 +259,12 @@ class Study(Collected):
             remedy = "Recordings in it would not count: correct its permissions."
             raise error(f"cannot be read: {why.strerror}", remedy, file=str(folder)) from None
         found = [_recording(path, participant, study_session) for path in paths]
-        # by time rather than by name, which has the local time
+        # sorted by time rather than by name, which contains the local time
         for _, _, session in sorted(found, key=lambda each: each[:2]):
             yield session
 
     def _without(self, member: dict[str, Any], study_session: str, recordings: list[Session]) -> Error:
-        """Why there is no complete recording of a participant's session."""
+        """The reason why there is no complete recording of a participant's session."""
         who = member["id"]
         if recordings:
             last = recordings[-1]
@@ -287,7 +287,7 @@ class Study(Collected):
 def _items(
     document: dict[str, Any], key: str, name: str, file: Path, remedy: str, of: str = ""
 ) -> list[dict[str, Any]]:
-    """The items of a list, each of which has a name, which may become a part of a path. Raises Error."""
+    """The items of a list; each has a name, which may become a part of a path. Raises Error."""
     items = part_of(document, key, list, file, remedy, of)
     for item in items:
         if not re.fullmatch("[A-Za-z0-9_-]+", str(item.get(name, ""))):
@@ -318,7 +318,7 @@ def _check_members(members: list[dict[str, Any]], file: Path) -> None:
 
 
 def _enough(study: dict[str, Any], file: Path) -> float:
-    """The least share of its trials that an interrupted session must have done to be included. Raises Error."""
+    """The smallest share of its trials that must be done for an interrupted session to be included. Raises Error."""
     resuming = part_of(study, "resuming", dict, file, _CHECK)
     text = part_of(resuming, "complete", str, file, _CHECK, "resuming.") or "1"
     try:
@@ -358,13 +358,16 @@ def _recording(path: Path, participant: str, study_session: str) -> tuple[float,
 
 
 def _is_complete(session: Session) -> bool:
-    """Whether nothing of a recording is left to be done."""
+    """Whether all of a recording's trials are done."""
     return _share_done(session) == 1
 
 
 def _share_done(session: Session) -> float:
-    """The share of a recording's trials that are done, from 0 to 1. It is 0 while the session runs, and when its files
-    do not show it or have been changed since; it is less than 1 when a procedure ended before its trials did."""
+    """The share of a recording's trials that are done, from 0 to 1.
+
+    It is 0 while the session runs, and if its files do not show the share or have been changed since; it is less than 1
+    if a procedure ended before its trials did.
+    """
     state = session.info.get("state")
     if state == "complete":
         return 1
@@ -373,7 +376,7 @@ def _share_done(session: Session) -> float:
     try:
         return _share_told(session)
     except (OSError, csv.Error, AttributeError, KeyError, TypeError, ValueError):
-        return 0  # the files are damaged; an Error is a ValueError, too
+        return 0  # the files are damaged (an Error is a ValueError, too)
 
 
 def _share_told(session: Session) -> float:

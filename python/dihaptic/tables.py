@@ -15,7 +15,7 @@ from ._facts import facts
 from ._head import why_unreadable
 from .errors import Error, NotThere, error
 
-#: The program writes yes and no; R, pandas and spreadsheets save a logical value in their own words.
+#: The program writes yes and no, while R, pandas and spreadsheets save logical values in words of their own.
 _YES = {"yes": True, "no": False, "true": True, "false": False}
 #: The largest table that is read [bytes]: in memory it takes several times as much.
 _MOST_TABLE = 2e9
@@ -55,7 +55,7 @@ def read_table(file: str | Path) -> pd.DataFrame:
 
 
 def parse_table(source: Path | TextIO, name: str) -> pd.DataFrame:
-    """The table in a CSV file or text; `name`: that of its file."""
+    """The table in a CSV file or a text; `name` is the name of its file."""
     texts = dict.fromkeys(facts()["text_columns"], str)
     table = pd.read_csv(source, keep_default_na=False, na_values=[""], dtype=texts)
     if "simulated" in table:
@@ -94,11 +94,11 @@ class Collected(ABC):
     @property
     @abstractmethod
     def _tables_folder(self) -> Path:
-        """The folder that has the joined tables."""
+        """The folder that contains the joined tables."""
 
     @abstractmethod
     def _collecting(self) -> tuple[Path, str]:
-        """What kind of thing is collected, and the command that collects it."""
+        """The kind of data that is collected, and the command that collects it."""
 
     @property
     def tables(self) -> list[str]:
@@ -124,7 +124,7 @@ class Collected(ABC):
 
 
 def command_of(*words: str | Path) -> str:
-    """A command of the program, as it is typed in a shell."""
+    """A command of the program, as typed in a shell."""
     return shlex.join(["dihaptic", *map(str, words)])
 
 
@@ -133,5 +133,5 @@ def _unit_of(column: str) -> str:
     none."""
     units: dict[str, str] = facts()["units"]
     parts = str(column).split("_")
-    # the longest match: N_s, not s
+    # takes the longest match: N_s, not s
     return next((units[end] for i in range(1, len(parts)) if (end := "_".join(parts[i:])) in units), "")

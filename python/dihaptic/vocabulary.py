@@ -53,7 +53,7 @@ for _quantity in _ALL:
 
 
 def of_list(name: str) -> list[Quantity]:
-    """The quantities of a list, in order; for "", those that occur once per tick."""
+    """The quantities of a list, in order; "" stands for those that occur once per tick."""
     return list(_BY_LIST.get(name, {}).values())
 
 

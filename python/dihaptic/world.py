@@ -22,10 +22,10 @@ _UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 class World:
     """A scene with simulated devices that a simulated hand holds.
 
-    `file` is a scene, or an experiment without trials, as a file or an object; `rig` is a rig of simulated devices, ideal
-    ones if left out; `settings` such as {"coupling.stiffness_N_m": 600}. Until a finger is led, it follows the scene's own
-    hand, and each tick is identical to the bit to that of `dihaptic run`. Raises Error for every fault that `dihaptic
-    check` finds.
+    `file` is a scene, or an experiment without trials, as a file or an object; `rig` is a rig of simulated devices
+    (ideal ones if left out); `settings` is a dict such as {"coupling.stiffness_N_m": 600}. Until a finger is led, it
+    follows the scene's own hand, and each tick is identical, to the bit, to that of `dihaptic run`. Raises Error for
+    every fault that `dihaptic check` finds.
 
     >>> import dihaptic as dh
     >>> world = dh.World("scenes/block-on-table.yaml")
@@ -54,7 +54,7 @@ class World:
 
     @property
     def object(self) -> Body | None:
-        """The body that the scene is about; None if nothing can move."""
+        """The object of the scene; None if nothing can move."""
         return self.bodies.get(self._world.object())
 
     @property
@@ -68,12 +68,12 @@ class World:
         return float(self._world.duration())
 
     def step(self, ticks: int = 1, director: Callable[[World], None] | None = None) -> None:
-        """Performs ticks; a director is called in each, before the world moves.
+        """Performs ticks; in each, a director is called before the world moves.
 
         A director's orders (pushes, places, scales) act in the same tick; a finger's lead acts in the next one, since
         the devices have already been read. A director reads the previous tick, so there must be one. Its exceptions end
-        the step. Raises Error once force has been switched off for safety: for instance, because a finger was led
-        farther at once than a hand can move. Lead it in steps, with their velocity.
+        the step. Raises Error once force has been switched off for safety: for instance, because a finger was led farther in
+        one step than a hand can move. Lead it in small steps, and give their velocity.
 
         >>> import dihaptic as dh
         >>> world = dh.World("scenes/block-on-table.yaml")

@@ -145,7 +145,7 @@ class Paths(Drawn):
         plan = next(iter(paths.plans(data)))
         points = plan.points(data)
         self.assertEqual(points[points.of == "path"].groupby(["session", "trial_num"]).ngroups, 40)
-        self.assertIn("Drawn are 40 of 48", plan.caption)
+        self.assertIn("The figure shows 40 of 48", plan.caption)
         self.assertIn("2 people", plan.caption)
 
     def test_texts(self):

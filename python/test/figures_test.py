@@ -146,9 +146,9 @@ class Figures(unittest.TestCase):
         self.assertEqual(list(dict.fromkeys(means.surface)), ["sandpaper", "suede", "silk"])
         for said, call in [
             ("mas_g: is not a column", lambda: figures.means_by_condition(data, measures=["peak_grip_N"], x="mas_g")),
-            ("has words", lambda: figures.means_by_condition(data, measures=["lift"], x="mass_g", table="lifts")),
+            ("contains words", lambda: figures.means_by_condition(data, measures=["lift"], x="mass_g", table="lifts")),
             ("there are several means at one place", lambda: figures.draw_conditions(means, x="mass_g")),
-            ("there is no mean", lambda: figures.draw_conditions(means[means.of == "person"], x="mass_g", colour="surface")),
+            ("no mean is", lambda: figures.draw_conditions(means[means.of == "person"], x="mass_g", colour="surface")),
             ("is not a person", lambda: figures.read(self.grip, people=["S01"])),
             ("cannot be written", lambda: figures.save(figures.canvas()[0], "/proc/figure")),
             ("is not a size", lambda: figures.canvas("three columns")),

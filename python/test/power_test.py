@@ -164,7 +164,7 @@ class Pools(unittest.TestCase):
             ("mean(a, b)", "needs one column"),
             ("mean(*a)", "must be a name"),
             ("means(static_grip_N)", "Did you mean 'mean'"),
-            ("mean(late, group=a) + mean(late, group=b)", "not one group's value less another"),
+            ("mean(late, group=a) + mean(late, group=b)", "not one group's value minus another"),
             ("mean(late) * 1" + 400 * "0", "cannot be part of an effect"),
             ("True * mean(late)", "cannot be part of an effect"),
             ("mean(x, group=a) - mean(x, group=b) - mean(x, group=c)", "names 3 groups"),
@@ -176,7 +176,7 @@ class Pools(unittest.TestCase):
             ("mean(static_grip_N, block=heavier)", "has no rows in lifts. Did you mean 'block=heavy'"),
             ("mean(static_grip_N, condition=heavy)", "Write block=heavy: it is a value of that column. The column condition is"),
             ("mean(static_grip_N, blocks=heavy)", "Did you mean 'block'"),
-            ("mean(outcome)", "has words"),
+            ("mean(outcome)", "contains words"),
             ("mean(safety_margin, group=a)", "has no groups"),
             ("mean(safety_margin) + 1 / 0", "cannot be computed"),
             ("mean(reach_time_s)", "is empty in all of these rows"),
@@ -276,7 +276,7 @@ class Pools(unittest.TestCase):
         self.assertEqual(people.person.tolist(), self.data.people)
         self.assertAlmostEqual(people.effect.mean(), result.size, delta=1e-9)
         self.assertEqual(result.table.analysed.tolist(), [4, 9])
-        self.assertIn("How much preload_s scatters over trials and over people was never compared", text)
+        self.assertIn("How much preload_s varies over trials and over people has never been compared", text)
         alike = dh.power(self.pool, "mean(loading_s, trial_num=3) - mean(loading_s, trial_num=4)", [4], draws=100)
         self.assertIn("is larger than experiments find", alike.save(Path(self.folder.name, "alike")).read_text())
 

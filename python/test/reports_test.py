@@ -247,7 +247,7 @@ class Reports(unittest.TestCase):
         self.assertIn("The factor distance had 3 levels: 40, 80 and 160 mm.", " ".join(methods))
         wanted = r"Movement time \(mean ± SD over people\): 0\.\d+ ± 0\.\d+ s \(40 mm\), .* \(160 mm\); n = 3 people"
         self.assertRegex(" ".join(results), wanted)
-        self.assertRegex(results[0], r"^Movement time over the index of difficulty \(ID\): .* bit/s\.$")
+        self.assertRegex(results[0], r"^Movement time against the index of difficulty \(ID\): .* bit/s\.$")
         for text in results[1:4]:  # with as many decimals everywhere
             self.assertEqual(len({len(decimals) for decimals in re.findall(r"\d\.(\d+)", text)}), 1, text)
 

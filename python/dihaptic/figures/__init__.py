@@ -5,10 +5,10 @@
     figures.draw("rehearsals/grip-and-lift_1")       # all figures that its experiment calls for, into figures/
 
 Each figure is saved as SVG, PDF and PNG, with the points that are drawn (CSV), and with a script of a few lines, which
-draws it anew from the tables and can be changed for a paper. Each kind of figure is a pair of functions: one makes a table
-with a row for each thing that is drawn, and the other draws such a table. `python3 -m dihaptic.figures FOLDER` does
-what draw() does. A table of points of simulated people carries the word that its figures show in a corner, in
-points.attrs["mark"]. Figures need matplotlib and SciPy.
+draws it anew from the tables and can be changed for a paper. Each kind of figure has a pair of functions: one makes a table
+with a row for each item that is drawn, and the other draws such a table. `python3 -m dihaptic.figures FOLDER` does what
+draw() does. If the people are simulated, points.attrs["mark"] of a table has the word that its figures show in a corner.
+Figures need matplotlib and SciPy.
 """
 
 try:

@@ -1,4 +1,4 @@
-"""Measures by condition: people as dots that are joined, their mean, and its interval."""
+"""Measures by condition: people as joined dots, their mean, and its interval."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def counting_trials(data: Data, table: str = "trials") -> pd.DataFrame:
     if table != "trials":
         other = data.table(table)
         columns = [str(column) for column in trials]
-        # what describes a trial comes from trials.csv, even if the other table has a measure of the same name
+        # the description of a trial comes from trials.csv, even if the other table has a measure of the same name
         design = columns[: columns.index("attempt" if "attempt" in columns else "trial_num") + 1]
         design += [name for name in data.factors if name not in design]  # factors of a later session with another task
         keys = [key for key in (*SITTING, "trial_num", "attempt") if key in design and key in other]
@@ -54,7 +54,7 @@ def counting_trials(data: Data, table: str = "trials") -> pd.DataFrame:
 
 
 def without_channels(trials: pd.DataFrame) -> pd.DataFrame:
-    """Trials without those in force channels, whose walls hold the hand, unless all of them are in channels."""
+    """These trials without those in force channels, whose walls hold the hand, unless all trials are in channels."""
     if "kind" not in trials:
         return trials
     free = trials[trials["kind"] != "force_channel"]
@@ -62,7 +62,8 @@ def without_channels(trials: pd.DataFrame) -> pd.DataFrame:
 
 
 def each_in_conditions(trials: pd.DataFrame, measure: str, by: list[str], single: bool) -> pd.DataFrame:
-    """The values to average of a measure, in each condition: people's means over n trials or, for one person, the trials.
+    """The values of a measure that are averaged in each condition: people's means over n trials or, for one person, the
+    trials.
 
     A row has the columns `by`, person, value, n, and `of`, which is "person". Force channels are left out, unless the
     measure exists only in them.
@@ -93,11 +94,11 @@ def means_by_condition(
 ) -> pd.DataFrame:
     """Means of measures in each condition: of each person, and over people.
 
-    `x`, `colour` and `panel` are columns of trials.csv. A row has the measure, the levels, and `of`: "person", whose mean
-    over n trials is `value`; or "mean", that over n people, with its 95 % interval from `low` to `high` (Student's t). For
-    one person, the dots are trials, and the mean is over them. Practice, catch trials and all but the last attempt at a
-    trial are left out; so are force channels, unless the measure exists only in them. Raises NotThere, or Error when no
-    trial has a value.
+    `x`, `colour` and `panel` are columns of trials.csv. A row has the measure, the levels, and `of`: "person", if
+    `value` is a person's mean over n trials; or "mean", if it is the mean over n people, with its 95 % interval from
+    `low` to `high` (Student's t). For one person, the dots are trials, and the mean is the mean over trials. Practice,
+    catch trials and all but the last attempt at a trial are left out; so are force channels, unless the measure exists
+    only in them. Raises NotThere, or Error when no trial has a value.
 
     >>> from dihaptic import figures
     >>> points = means_by_condition(figures.read(lift_session), measures=["peak_grip_N"], x="trial_num", table="lifts")
@@ -114,7 +115,7 @@ def means_by_condition(
     for measure in checked_list("measures", measures):
         check_column(trials, measure)
         if not pd.api.types.is_numeric_dtype(trials[measure]):
-            raise error("has words, of which there is no mean", "Name a column of numbers.", key=measure)
+            raise error("contains words, which have no mean", "Name a column of numbers.", key=measure)
         each = each_in_conditions(trials, measure, by, single)
         mean = means_with_intervals(each, by, dropna=False, sort=True)
         both = pd.concat([each, mean], ignore_index=True)
@@ -136,9 +137,10 @@ def draw_conditions(
     points: pd.DataFrame, *, x: str, colour: str = "", panel: str = "", size: str = "one column", height_mm: float = 60,
     order: dict[str, list[str]] | None = None,
 ) -> Figure:  # fmt: skip
-    """Draws means_by_condition(): a panel for each measure and each level of `panel`, and a colour for each of `colour`.
+    """Draws means_by_condition(), with a panel for each measure and each level of `panel`, and a colour for each level of
+    `colour`.
 
-    `order` has the levels of those columns that are words, in order.
+    `order` lists, in order, the levels of those columns that contain words.
 
     >>> from dihaptic import figures
     >>> data = figures.read(lift_session)
@@ -152,9 +154,9 @@ def draw_conditions(
             check_column(points, name)
     means = points[points["of"] == "mean"]
     if means.empty:
-        raise error("there is no mean to draw", "Draw a table of means_by_condition() with its rows of means.")
+        raise error("no mean is available to be drawn", "Draw a table of means_by_condition() with its rows of means.")
     if means.duplicated(["measure", *(name for name in (x, colour, panel) if name)]).any():
-        raise error("there are several means at one place", "Choose as colour or panel a column that separates them.", key=x)
+        raise error("there are several means at one place", "As colour or panel, choose a column that separates them.", key=x)
     measures = list(dict.fromkeys(points["measure"]))
     order = order or {}
     for column, levels in order.items():
@@ -191,7 +193,7 @@ def draw_conditions(
 
 
 def _grid(measures: int, panels: int, size: str) -> tuple[int, int]:
-    """Rows and columns of panels: a row for each measure or, if each has a single panel, measures side by side."""
+    """Rows and columns of panels: each measure has a row or, if each has a single panel, measures are side by side."""
     if panels > 1:
         return measures, panels
     columns = min(measures, 3 if size == "two columns" else 1)
@@ -256,7 +258,7 @@ def plans(data: Data) -> Iterator[Plan]:
 
 
 def measures_of_lifts(data: Data) -> list[str]:
-    """Those of LIFT_MEASURES that these lifts have, and that the task does not measure itself, by whatever name."""
+    """The LIFT_MEASURES that these lifts have and that the task does not measure itself, whatever their names."""
     lifts, both, trials = data.table("lifts"), counting_trials(data, "lifts"), counting_trials(data)
     keys = [key for key in (*SITTING, "trial_num") if key in trials and key in both]
     of_trials = both[keys].merge(trials, on=keys, how="left")
@@ -269,7 +271,7 @@ def measures_of_lifts(data: Data) -> list[str]:
 
 
 def axes_of_design(data: Data) -> dict[str, str]:
-    """Which column of trials.csv goes to x, to colour and to panels: numeric factors to x, few levels to colours."""
+    """The columns of trials.csv for x, colours and panels: numeric factors go to x, and factors with few levels to colours."""
     trials = data.table("trials")
     if "condition" not in trials:
         return {}
@@ -306,7 +308,7 @@ def _axes_of_names(trials: pd.DataFrame) -> dict[str, str]:
 
 def _plans_of(data: Data, table: str, measures: list[str], name: str, design: dict[str, str]) -> Iterator[Plan]:
     trials = counting_trials(data, table)
-    # a questionnaire, say, may be asked in one condition alone
+    # a questionnaire, for example, may be asked in a single condition
     measures = [name for name in measures if trials.loc[trials[name].notna(), design["x"]].nunique() > 1]
     trials = trials[trials[measures].notna().any(axis=1)]
     if not measures or trials.empty:

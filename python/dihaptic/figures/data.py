@@ -1,4 +1,4 @@
-"""Reads what figures are drawn from: the tables of one session, of a rehearsal, of a study, or of a folder of sessions."""
+"""Reads the tables from which figures are drawn: those of a session, a rehearsal, a study, or a folder of sessions."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from .words import label, split
 ASIDE = ["practice", "catch"]
 #: Columns that identify a session among those of all people.
 SITTING = ("person", "group", "session", "study_session")
-#: Columns of trials.csv that are not measures: those up to this one, and the ones below, which follow the measures.
+#: The last column of trials.csv before the measures; the columns below follow the measures, and are not measures either.
 _END_OF_DESIGN = "attempt"
 _AFTER_MEASURES = ["not_measured", "simulated", "moved_by", "start_type", "replays"]
 #: Maximum number of trials in a window of a learning curve, such as early or late, in fits.csv.
 WINDOW = 8
-#: Columns of measures that describe what acted on the hand, not what the hand did.
+#: Columns of measures that describe forces on the hand, not the hand's behaviour.
 _NOT_BEHAVIOUR = ["field_share"]
-#: Values that differ by less than this share of their range are taken to be the same.
+#: Values that differ by less than this share of their range count as equal.
 _SAME = 0.01
 
 
@@ -58,11 +58,11 @@ def read(
 ) -> Data:  # fmt: skip
     """The tables of a session's folder, of a rehearsal's, of a study's file, or of a folder that contains sessions.
 
-    Several paths, in a list, are compared: the people of each are a group. `people` names those who are included, in all
-    figures and means; the default is everybody. In a folder with several experiments, `experiment` selects one by its title;
-    `moved_by`, a value of that column of tables, selects people or simulated people, and `population` one population of the
-    latter: different samples are never averaged. Raises Error when there is nothing, or when several samples are left, and
-    NotThere for an unknown person.
+    A list of several paths is compared: the people of each path are a group. `people` names those who are included in all
+    figures and means; by default, everybody is included. In a folder with several experiments, `experiment` selects one by
+    its title; `moved_by`, a value of that column of tables, selects people or simulated people, and `population` one
+    population of the latter: different samples are never averaged. Raises Error when there is nothing, or when several
+    samples are left, and NotThere for an unknown person.
 
     >>> from dihaptic import figures
     >>> figures.read(lift_session)
@@ -72,10 +72,10 @@ def read(
 
 
 class Data:
-    """The tables that figures are drawn from, of one person or of many.
+    """The tables of one person or of many, from which figures are drawn.
 
-    Every table has the columns `person` and `group` ("" without groups). `paths` are those that were read, and `left_out`
-    gives the reason for each session that is not included.
+    Every table has the columns `person` and `group` ("" without groups). `paths` are the paths that were read, and
+    `left_out` gives the reason for each session that is not included.
 
     >>> from dihaptic import figures
     >>> data = figures.read(lift_session)
@@ -85,11 +85,11 @@ class Data:
 
     def __init__(self, found: Sittings, people: list[str] | None, wanted: Sample) -> None:
         self.paths, self.left_out = found.paths, found.left_out
-        #: The arguments that chose these people, to be repeated in a script.
+        #: The arguments that selected these people; a script repeats them.
         self.choice: dict[str, Any] = {"people": people, **asdict(wanted)}
         chosen = [sitting for sitting in found.counting if sitting.sample.is_among(wanted)]
         samples = sorted({sitting.sample for sitting in chosen}, key=str)
-        # paths that are compared may differ in who moved the hand, but each has one sample, of one experiment
+        # paths that are compared may differ in who moved the hand, but each has a single sample, from one experiment
         mixed = len({(each.of, each.sample) for each in chosen}) > len({each.of for each in chosen})
         mixed = mixed or len({sample.is_simulated for sample in samples}) > 1
         if mixed or len({sample.experiment for sample in samples}) != 1:
@@ -111,7 +111,7 @@ class Data:
 
     @property
     def folder(self) -> Path:
-        """The folder for figures of these data: beside their tables."""
+        """The folder for figures of these data, which is beside their tables."""
         path = self.paths[0]
         return path.parent if path.is_file() else path
 
@@ -132,7 +132,7 @@ class Data:
 
     @property
     def task(self) -> dict[str, Any]:
-        """The task of the first session, frozen (task.yaml); empty for a session without a task. Raises Error."""
+        """The frozen task of the first session (task.yaml); empty for a session without a task. Raises Error."""
         return self.tasks[0]
 
     @cached_property
@@ -195,7 +195,7 @@ class Data:
             names += [renamed(str(factor["factor"])) for factor in task.get("cross") or []]
             for each in [*(task.get("conditions") or []), *(task.get("rounds") or [])]:
                 names += [renamed(str(name)) for name in each.get("factors") or {}]
-        # sessions of a study and rounds, too, are never averaged over
+        # nor are means ever taken over the sessions of a study, or over rounds
         names = list(dict.fromkeys([*names, "study_session", "round"]))
         return [name for name in names if name in trials and trials[name].nunique() > 1]
 
@@ -215,8 +215,8 @@ class Data:
         return [str(each["name"]) for each in self.task.get("rounds") or [] if each.get("name")]
 
     def levels(self, column: str) -> list[Any]:
-        """The levels of a column that describes trials: numbers by size, words in the order of the task or of the trials.
-        Raises NotThere.
+        """The levels of a column that describes trials: numbers are sorted by size, words by their order in the task or in
+        the trials. Raises NotThere.
 
         >>> from dihaptic import figures
         >>> figures.read(lift_session).levels("outcome")
@@ -236,7 +236,7 @@ class Data:
         return [*dict.fromkeys(value for value in known if value in found), *(value for value in found if value not in known)]
 
     def in_order(self, table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
-        """The rows of a table sorted by the levels of its columns `by`, first by the first one."""
+        """The rows of a table, sorted by the levels of its columns `by`, of which the first counts most."""
         trials = self.table("trials")
         for name in reversed(by):
             place = {value: i for i, value in enumerate(self.levels(name) if name in trials else [])}
@@ -245,8 +245,7 @@ class Data:
 
     @cached_property
     def measures(self) -> list[Measure]:
-        """The numeric measures and answers of the task that have a value in some trial, as columns of trials.csv, without
-        stimuli."""
+        """Columns of trials.csv: the task's numeric measures and answers that have a value in some trial, without stimuli."""
         return [measure for measure in self._numbers if measure.column not in self.stimuli]
 
     @cached_property
@@ -255,7 +254,7 @@ class Data:
         trials = self.table("trials")
         columns = [str(column) for column in trials.columns]
         first = columns.index(_END_OF_DESIGN) + 1 if _END_OF_DESIGN in columns else len(columns)
-        # ratings stand among the design's columns, since the task can refer to them
+        # ratings are among the design's columns, since the task can refer to them
         asked = [state["ask"] for task in self.tasks for state in task.get("states") or [] if isinstance(state.get("ask"), dict)]
         ratings = [str(ask["name"]) for ask in asked if ask.get("name") in columns[:first]]
         built_in = {name for name, _ in facts()["columns"]["trials.csv"]}
@@ -271,8 +270,8 @@ class Data:
     def stimuli(self) -> list[str]:
         """Columns of measures whose values the experiment set: they describe what was presented, not what people did.
 
-        Their expression has nothing but factors and draws; or they have three or more values, and within a condition the
-        same one in all trials of all people.
+        Their expressions contain only factors and draws; or they have three or more values, but the same one in all trials
+        of a condition, for all people.
         """
         trials = self.table("trials") if self.has("trials") else pd.DataFrame()
         alike = [name for name in (*self.factors, "kind", "condition", "perturbation") if name in trials] if len(trials) else []
@@ -317,14 +316,17 @@ class Data:
 
 
 def _is_made_of(expression: str, names: set[str]) -> bool:
-    """Whether an expression of a task has some of these names, and otherwise only names of functions and units."""
+    """Whether an expression of a task contains some of these names and, apart from them, only names of functions and units."""
     expression = re.sub(r"\d\s*[A-Za-z]+(/[A-Za-z]+)?", "0", expression)
     found = re.findall(r"\"[^\"]*\"|[A-Za-z_][\w.]*(?!\w*\s*\()", expression)
     return bool(found) and set(found) <= names
 
 
 def checked_list(name: str, values: list[str]) -> list[str]:
-    """A list of names that a function was given. Raises Error for a single text, whose letters would be taken for names."""
+    """The list of names that was given to a function.
+
+    Raises Error for a single text, whose letters would be taken for names.
+    """
     if isinstance(values, str):
         raise error("must be a list of names", f'Write {name}=["{values}"].', key=name)
     return values
@@ -336,7 +338,7 @@ def sitting_columns(table: pd.DataFrame) -> list[str]:
 
 
 def _joined(parts: list[pd.DataFrame]) -> pd.DataFrame:
-    """The tables, one below another. A column that is empty in one session and has words in another keeps its words."""
+    """The tables, stacked in one table. A column that is empty in one session and has words in another keeps its words."""
     kinds = pd.DataFrame([part.dtypes for part in parts])
     mixed = [column for column in kinds if kinds[column].nunique(dropna=False) > 1]
     parts = [part.astype({column: object for column in mixed if column in part}) for part in parts]

@@ -19,7 +19,7 @@ from .saving import Plan, is_changed, save, write
 from .sessions import Paths
 from .statistics import write_analyses
 
-#: Each kind of figure: a module with `plans(data)` and its HEADING, in the order in which figures are listed.
+#: The kinds of figures, each a module with `plans(data)` and a HEADING, in the order in which figures are listed.
 KINDS = [fitts, conditions, lifts, learning, paths, psychophysics, quality]
 
 
@@ -46,7 +46,7 @@ class Drawn:
     plan: Plan
     heading: str  #: heading above it on the page, e.g. "Learning"
     script: Path
-    kept: bool  #: whether its script had been changed, so that it was left as it is
+    kept: bool  #: whether the figure was left as it is because its script had been changed
 
 
 def draw_data(
@@ -114,7 +114,7 @@ def main(words: list[str]) -> int:
             "Example:\n  python3 -m dihaptic.figures rehearsals/grip-and-lift_1"
         )
         return 0 if words and words[0] in ("-h", "--help") else 2
-    warnings.formatwarning = lambda message, *_: f"{message}\n"  # short, for the command line
+    warnings.formatwarning = lambda message, *_: f"{message}\n"  # a short message, for the command line
     try:
         scripts = draw(*words, progress=lambda title: print(title, file=sys.stderr))
     except Error as why:

@@ -1,4 +1,4 @@
-"""Fitts's law: movement time over the index of difficulty, where the task's reach has targets of several distances and sizes."""
+"""Fitts's law: movement time against the index of difficulty, if targets differ in distance and size."""
 
 from __future__ import annotations
 
@@ -32,15 +32,16 @@ _COLUMNS = [
 
 @of_data
 def fitts_law(data: Data) -> pd.DataFrame:
-    """Movement time over the index of difficulty, and its regression line: of each person, and over people.
+    """Movement time against the index of difficulty, for each person and over people, and its regression line.
 
-    The distance D of a reach is that between the regions of the task's `movement`, from the centre of `from` to that of
+    The distance D of a reach is measured from the centre of the region `from` of the task's `movement` to the centre of
     `to`, and the width W is the diameter of `to`, both in mm. The index of difficulty is log2(D / W + 1) in bits, Shannon's
-    formulation, as in ISO 9241-411. A row is `of` "person", whose mean over n trials is `value` [s]; "mean", that over n people,
-    with its 95 % interval from `low` to `high` (Student's t); or an end of the "line": the least-squares line through the means
-    of a group, with intercept, slope and R². Its `throughput_bits_s` is the mean over people of their means of index
-    over movement time in each condition, with the nominal widths. For one person, a "person" is a trial. Practice, catch
-    trials and all but the last attempt at a trial are left out. Raises Error when the task has no such reach.
+    formulation, as in ISO 9241-411. A row is `of` "person", if `value` is a person's mean over n trials [s]; "mean", if it
+    is the mean over n people, with its 95 % interval from `low` to `high` (Student's t); or "line", for an end of the
+    least-squares line through the means of a group, with intercept, slope and R². Its `throughput_bits_s` is the ratio of
+    index to movement time with the nominal widths, averaged first over each person's conditions and then over people. For
+    one person, each "person" row is a trial. Practice, catch trials and all but the last attempt at a trial are left out.
+    Raises Error when the task has no such reach.
     """
     trials = _difficulties(data)
     if trials is None:
@@ -69,7 +70,7 @@ def fitts_law(data: Data) -> pd.DataFrame:
 
 @drawing
 def draw_fitts_law(points: pd.DataFrame, *, size: str = "one column", height_mm: float = 65) -> Figure:
-    """Draws fitts_law(): people as dots, means with intervals, and the line; a colour for each group."""
+    """Draws fitts_law(): people as dots, means with intervals, and the line, with a colour for each group."""
     figure, (axes,) = canvas(size, height_mm)
     points = points.assign(group=points["group"].fillna("").astype(str))
     groups = list(dict.fromkeys(points["group"]))
@@ -113,7 +114,7 @@ def plans(data: Data) -> Iterator[Plan]:
     means = intervals(points.loc[points["of"] == "mean", "n"], BY_T)
     yield Plan(
         name="fitts-law",
-        title="Movement time over the index of difficulty",
+        title="Movement time against the index of difficulty",
         caption="The index is log2(D / W + 1), with the distance D and the nominal width W of the target (Shannon's "
         f"formulation, ISO 9241-411). {dots}; marks are means over {'trials' if single else 'people'}{means}; the line "
         f"is the least-squares fit to the means of conditions: {law_in_words(points)}. {counted(people, 'person', 'people')}, "
@@ -156,7 +157,7 @@ def _difficulties(data: Data) -> pd.DataFrame | None:
 
 
 def _values(trials: pd.DataFrame) -> dict[str, Any]:
-    """What expressions can name: numeric columns of trials, without the units at their ends; lengths in mm."""
+    """The names that expressions can contain: numeric columns of trials, without the units at their ends, with lengths in mm."""
     units = trials.attrs.get("units", {})
     out: dict[str, Any] = {}
     for column in trials.select_dtypes("number"):
@@ -190,7 +191,7 @@ def _parsed(text: Any) -> ast.expr:
 
 
 def _value(node: ast.expr, values: dict[str, Any]) -> Any:
-    """The value of arithmetic on names. Raises LookupError for anything else."""
+    """The value of an arithmetic expression with names. Raises LookupError for anything else."""
     if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)):
         return node.value
     if isinstance(node, (ast.Name, ast.Attribute)):

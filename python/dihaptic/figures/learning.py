@@ -1,4 +1,4 @@
-"""Learning: its course over trials, means of windows of trials, generalisation, and courses of other measures."""
+"""Learning: its course over trials, means in windows of trials, generalisation, and the courses of other measures."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .words import counted, in_print, label, level, words_of
 
 #: Heading above these figures in a report.
 HEADING = "Learning"
-#: Maximum numbers of panels in a figure, and of groups with own colours; minimum number of trials for a course.
+#: Maximum numbers of panels in a figure, and of groups with colours of their own; minimum number of trials for a course.
 _MOST_PANELS, _MOST_GROUPS, _LEAST_TRIALS = 6, 7, 8
 #: Maximum number of rows of blocks' names.
 _MOST_ROWS = 3
@@ -39,7 +39,7 @@ SHADES = {
 }
 #: Kinds of trials that do not show which perturbation their block has.
 _WITHOUT_PERTURBATION = ["catch", "visual_clamp", "force_channel", "practice"]
-#: Windows of fits.csv that are means, and those that are differences of means, with their names in a figure.
+#: Windows of fits.csv that are means, and windows that are differences of means, with their names in a figure.
 WINDOWS = {
     "baseline": "baseline", "early": "early", "late": "late", "catch": "catch trials", "clamp_first": "clamp, first",
     "clamp_last": "clamp, last", "washout_first": "washout, first",
@@ -55,7 +55,7 @@ _COLUMNS = ["part", "group", "of", "person", "first", "last", "trial", "block", 
 
 
 def _parts(table: pd.DataFrame) -> pd.Series:
-    """The name of the part of each row, which has its own panel: session of a study, round."""
+    """For each row, the name of its part (a session of a study, or a round), which has its own panel."""
     words = pd.Series("", index=table.index)
     for column in ("study_session", "round"):
         if column in table:
@@ -93,9 +93,9 @@ def _scattered(table: pd.DataFrame) -> pd.Series:
 
 
 def _bins(table: pd.DataFrame, width: int) -> pd.DataFrame:
-    """First and last trial of the bin of each trial of each part: bins end with their block.
+    """The first and the last trial of each trial's bin, in each part; a bin ends with its block.
 
-    The rest of a block is a bin of its own if it has at least half of the trials of a bin.
+    The remaining trials of a block are a bin of their own if they are at least half as many as a bin has.
     """
     found = []
     for part, own in table.groupby("part", sort=False):
@@ -112,7 +112,7 @@ def _bins(table: pd.DataFrame, width: int) -> pd.DataFrame:
 
 
 def _schedule(table: pd.DataFrame) -> pd.DataFrame:
-    """The block, kind and perturbation of each trial of a part, for all people of a group; "" if they differ."""
+    """The block, kind and perturbation of each trial of a part, if they are the same for all people of a group, or else ""."""
     keys = ["part", "group", "trial"]
     same = table.groupby(keys, sort=False)
     out = same.agg(block=("block", "first"), kind=("kind", "first"), n=("person", "nunique")).reset_index()
@@ -127,7 +127,7 @@ def _schedule(table: pd.DataFrame) -> pd.DataFrame:
         telling = table[~table["kind"].isin(_WITHOUT_PERTURBATION) & table["error_seen"].isin(["yes", True])]
         known = telling.groupby(keys)["perturbation"].mean().rename("known").reset_index()
         out = out.merge(known, on=keys, how="left")
-        # a catch trial interrupts the perturbation of its block, which the line follows
+        # the line shows the perturbation of the block, which a catch trial interrupts
         near = out.groupby(["part", "group", "block"])["known"]
         out["value"] = near.ffill().where(near.ffill().notna(), near.bfill())
         out = out.drop(columns="known")
@@ -135,7 +135,7 @@ def _schedule(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def _courses(table: pd.DataFrame, width: int, several: bool) -> pd.DataFrame:
-    """Each person's values, their means, fitted models, and the schedule of blocks, as rows of a table of points."""
+    """Each person's values, their means, the fitted models, and the schedule of blocks, as rows of a table of points."""
     if width < 1:
         raise error("must be at least one trial", "Write bin_trials=1 for every trial.", key="bin_trials")
     shown = table[~_scattered(table)].merge(_bins(table, width), on=["part", "trial"], how="left")
@@ -162,19 +162,19 @@ def _courses(table: pd.DataFrame, width: int, several: bool) -> pd.DataFrame:
 
 
 def _width_of_bins(table: pd.DataFrame, most: int) -> int:
-    """How many trials to average for a point of a line, so that there are few enough points, and most have all people."""
+    """How many trials to average for each point of a line, so that there are few enough points, and most include all people."""
     keys = [*sitting_columns(table), "part"]
     trials = int(table.groupby(keys)["trial"].count().max())
     share = table["value"].notna().groupby([table[column] for column in [*keys, "block"]]).mean()
     share = share.groupby([*keys[1:], "block"] if len(keys) > 1 else ["block"]).mean()
     least = float(share[share > 0].min()) if (share > 0).any() else 1.0
-    # where points must be means of trials, there are half as many as would fit
+    # if points must be means of trials, half as many are drawn as would fit
     wanted = max(2 * trials / most if trials > most else 1.0, 1 / least if least < 0.5 else 1.0)
     return next((width for width in _WIDTHS_OF_BINS if width >= wanted * 0.999), _WIDTHS_OF_BINS[-1])
 
 
 def _frame(points: pd.DataFrame) -> pd.DataFrame:
-    """A table of points, in which empty texts are texts, even if it was read from a file."""
+    """A table of points in which empty texts are texts, even if the table was read from a file."""
     words = [column for column in ("part", "group", "person", "block", "block_kind", "kind") if column in points]
     return points.assign(**{column: points[column].fillna("").astype(str) for column in words})
 
@@ -183,7 +183,10 @@ def _frame(points: pd.DataFrame) -> pd.DataFrame:
 
 
 def _runs(schedule: pd.DataFrame) -> list[tuple[str, str, float, float]]:
-    """Blocks in the order of trials: name, commonest kind, first and last trial. One that differs between people has none."""
+    """The blocks in the order of trials: the name, the most common kind, and the first and last trial of each.
+
+    A name that differs between people is left out.
+    """
     by_trial = schedule.sort_values("trial").groupby("trial")
     block = by_trial["block"].first().where(by_trial["block"].nunique() == 1, "")
     kind = by_trial["block_kind"].first().where(by_trial["block_kind"].nunique() == 1, "")
@@ -192,7 +195,7 @@ def _runs(schedule: pd.DataFrame) -> list[tuple[str, str, float, float]]:
 
 
 def _place_names(runs: list[tuple[str, str, float, float]], width_mm: float) -> list[tuple[str, float, int]]:
-    """Names of blocks with their places along a panel of this width [mm] and their rows, so that none overlap."""
+    """Names of blocks, with their places along a panel of this width [mm] and their rows, chosen so that no names overlap."""
     if not runs:
         return []
     low, high = runs[0][2] - 0.5, runs[-1][3] + 0.5
@@ -249,7 +252,7 @@ def _rows_of_names(runs: list[tuple[str, str, float, float]], width_mm: float) -
 
 
 def _upright_places(runs: list[tuple[str, str, float, float]], width_mm: float) -> list[tuple[str, float]]:
-    """Those names of many blocks that have room side by side when they are upright, with their trials."""
+    """If there are many blocks, those names that fit side by side when they are upright, with their trials."""
     low, high = runs[0][2] - 0.5, runs[-1][3] + 0.5
     end = -10.0
     placed = []
@@ -267,15 +270,15 @@ def _unnamed(table: pd.DataFrame, panels: int) -> str:
     for _, own in table.groupby("part"):
         runs = _runs(_schedule(own))
         if any(not name for name, *_ in runs) and own["block"].ne("").any():
-            return " Blocks that come in another order for other people have no names."
+            return " Blocks whose order differs between people are not named."
         named = sum(bool(name) for name, *_ in runs)
         if _rows_of_names(runs, width_mm) > _MOST_ROWS and len(_upright_places(runs, width_mm)) < named:
-            return " Blocks that are too narrow for their names have none."
+            return " Blocks that are too narrow for their names are not named."
     return ""
 
 
 def _lines(axes: Axes, own: pd.DataFrame, group: int, several: bool, groups: int) -> None:
-    """People, mean with its interval, and fitted model of one group in one panel."""
+    """Draws the people, the mean with its interval, and the fitted model of one group in one panel."""
     hue, dashes = COLOURS[group % len(COLOURS)], _DASHES[group % len(_DASHES)]
     for _, one in own[own["of"] == "person"].groupby("person"):
         one = one.sort_values("trial")
@@ -299,13 +302,16 @@ def _lines(axes: Axes, own: pd.DataFrame, group: int, several: bool, groups: int
 
 
 def _single_catch(points: pd.DataFrame) -> set[float]:
-    """Catch trials among other trials, whose places are the same for all people."""
+    """Draws catch trials among other trials, if their places are the same for all people."""
     schedule = points[points["of"] == "schedule"]
     return set(schedule[(schedule["kind"] == "catch") & (schedule["block_kind"] != "catch")]["trial"])
 
 
 def _perturbation(axes: Axes, schedule: pd.DataFrame, groups: dict[str, int]) -> bool:
-    """The perturbation as a dotted line, in the groups' colours if it differs. Returns whether there is any."""
+    """Draws the perturbation as a dotted line, in the groups' colours if it differs between groups.
+
+    Returns whether there are any.
+    """
     if not (schedule["value"].fillna(0) != 0).any():
         return False
     same = schedule.groupby("trial")["value"]
@@ -351,7 +357,7 @@ def _key(
 def _draw_courses(
     points: pd.DataFrame, panels: list[tuple[str, pd.DataFrame, str]], size: str, height_mm: float, share: bool
 ) -> Figure:
-    """Panels of courses: each with its title, its points, and the label of its axis."""
+    """Panels of courses, each with its title, its points, and the label of its axis."""
     columns = _columns(points["last"].max(), len(panels), size)
     rows = -(-len(panels) // columns)
     width_mm = WIDTHS[size] / columns - 17
@@ -391,7 +397,7 @@ def _draw_courses(
 
 
 def _columns(trials: float, panels: int, size: str) -> int:
-    """Number of panels of so many trials that are side by side."""
+    """Number of panels with this many trials that fit side by side."""
     if panels == 1 or size != "two columns":
         return 1
     return 3 if panels == 3 and trials <= 80 else 2
@@ -417,16 +423,17 @@ def _adaptation(data: Data, unit: str, parts: list[str] | None) -> pd.DataFrame:
 
 @of_data
 def learning_curve(data: Data, *, unit: str = "", rounds: list[str] | None = None, bin_trials: int = 1) -> pd.DataFrame:
-    """Compensation over the trials of each round: of each person, mean over people, fitted two-rate model, perturbation.
+    """Compensation over the trials of each round: that of each person, the mean over people, the fitted two-rate model, and
+    the perturbation.
 
-    `unit` is that of adaptation.csv, "deg" or "%", and `rounds` names those that are wanted, by default all; in a study,
-    rounds are named "SESSION, ROUND". Trials are counted from the first of the round. With `bin_trials`, that many trials
-    of a block are a point, from trial `first` to trial `last`.
+    `unit` is that of adaptation.csv, "deg" or "%", and `rounds` names the rounds that are wanted, by default all; in a
+    study, rounds are named "SESSION, ROUND". Trials are counted from the first of the round. With `bin_trials`, each
+    point stands for that many trials of a block, from trial `first` to trial `last`.
 
-    A row is `of` a "person" (value: mean over n trials), the "mean" over n people with its 95 % interval from `low` to
-    `high` (Student's t), the "fit" (mean over people's fitted models), or the "schedule": a trial's block, kind, and
-    perturbation (`value`). Values are in `unit`. Practice, all but the last attempt at a trial, and catch trials whose
-    places in their block differ between people are left out. For one person there is no mean.
+    A row is `of` a "person" (`value` is the mean over n trials), the "mean" over n people with its 95 % interval from
+    `low` to `high` (Student's t), the "fit" (the mean of people's fitted models), or the "schedule" (a trial's block
+    and kind, with the perturbation as `value`). Values are in `unit`. Practice, all but the last attempt at a trial,
+    and catch trials whose places in their block differ between people are left out. For one person there is no mean.
 
     Example: points = figures.learning_curve(figures.read(dh.rehearse("experiments/visuomotor-rotation.yaml", 4).folder)),
     once `dihaptic report` has made its tables. Raises NotThere without adaptation.csv, or for another round.
@@ -441,10 +448,10 @@ def learning_curve(data: Data, *, unit: str = "", rounds: list[str] | None = Non
 def draw_learning_curve(
     points: pd.DataFrame, *, ylabel: str = "", size: str = "two columns", height_mm: float = 55
 ) -> Figure:
-    """Draws learning_curve(): a panel for each round, with equal limits, and a colour for each group.
+    """Draws learning_curve(), with a panel for each round, all with equal limits, and a colour for each group.
 
-    Blocks are named above, and those of washout, clamps, channels and catch trials shaded. `ylabel` is the label of the
-    axis, by default "compensation" with its unit.
+    Blocks are named above the panels, and those of washout, clamps, channels and catch trials are shaded. `ylabel` is the
+    label of the axis, by default "compensation" with its unit.
     """
     points = _frame(points)
     ylabel = ylabel or label("compensation", str(points["unit"].iloc[0]))
@@ -461,9 +468,9 @@ def learning_windows(data: Data, *, unit: str = "", rounds: list[str] | None = N
     """The windows of fits.csv, such as baseline, early, late and washout: of each person, and means over people.
 
     A row is a `window` `of` a "person", or the "mean" over n people with its 95 % interval from `low` to `high`
-    (Student's t); that of one person is the interval over trials which fits.csv gives. `part` is the round (in a study,
-    with its session), of which `rounds` names those that are wanted, and `is_difference` says that a window is a difference
-    of means (savings, rebound). Values are in `unit`. Raises NotThere.
+    (Student's t); for one person, the interval is the one over trials that fits.csv gives. `part` is the round (in a
+    study, with its session); `rounds` names the rounds that are wanted; and `is_difference` tells whether a window is a
+    difference of means (savings, rebound). Values are in `unit`. Raises NotThere.
 
     Example: points = figures.learning_windows(data), with data as for learning_curve().
     """
@@ -495,10 +502,10 @@ def learning_windows(data: Data, *, unit: str = "", rounds: list[str] | None = N
 def draw_learning_windows(
     points: pd.DataFrame, *, ylabel: str = "", size: str = "one column", height_mm: float = 62
 ) -> Figure:
-    """Draws learning_windows(): people as dots that are joined, and their mean with its interval.
+    """Draws learning_windows(): people as joined dots, and their mean with its interval.
 
     Rounds have colours; with several groups, rounds have panels and groups have colours. Differences (savings, rebound)
-    have a panel of their own at the right. `ylabel` is by default "compensation" with its unit.
+    have a panel of their own on the right. `ylabel` is by default "compensation" with its unit.
     """
     points = _frame(points)
     unit = str(points["unit"].iloc[0])
@@ -546,7 +553,7 @@ def _dot(i: int) -> Line2D:
 
 
 def _dots(axes: Axes, own: pd.DataFrame, windows: list[str], i: int, levels: int) -> None:
-    """People's windows as faint dots that are joined, and means with intervals."""
+    """Draws people's windows as faint joined dots, and means with intervals."""
     aside = (i - (levels - 1) / 2) * min(0.16, 0.7 / levels)
     hue, marker = COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]
     own = own.assign(at=own["window"].map({window: place + aside for place, window in enumerate(windows)})).sort_values("at")
@@ -565,11 +572,12 @@ def _dots(axes: Axes, own: pd.DataFrame, windows: list[str], i: int, levels: int
 
 @of_data
 def generalisation_curve(data: Data) -> pd.DataFrame:
-    """Compensation over the angle from the trained direction, from generalisation.csv: of each person, and their means.
+    """Compensation against the angle from the trained direction, from generalisation.csv: each person's, and the means over
+    people.
 
-    A row is `of` a "person" (n trials; conditions of the same angle are averaged), or the "mean" over n people with its
-    95 % interval from `low` to `high` (Student's t). Angles and values are in degrees; `share` is the share of the
-    compensation in trained directions. Raises NotThere.
+    A row is `of` a "person" (with n trials; conditions with the same angle are averaged), or the "mean" over n people
+    with its 95 % interval from `low` to `high` (Student's t). Angles and values are in degrees; `share` is the share of
+    the compensation in trained directions. Raises NotThere.
     """
     table = data.table("generalisation")
     table = table.assign(part=_parts(table))
@@ -585,7 +593,7 @@ def generalisation_curve(data: Data) -> pd.DataFrame:
 
 @drawing
 def draw_generalisation(points: pd.DataFrame, *, size: str = "one column", height_mm: float = 62) -> Figure:
-    """Draws generalisation_curve(): a colour for each group or round; the trained direction is at 0°."""
+    """Draws generalisation_curve(), with a colour for each group or round; the trained direction is at 0°."""
     points = _frame(points)
     figure, (axes,) = canvas(size, height_mm)
     colour = "group" if points["group"].nunique() > 1 else "part"
@@ -632,10 +640,10 @@ def _of_session(data: Data, session: str, measures: list[str]) -> pd.DataFrame:
 
 @of_data
 def measures_over_trials(data: Data, *, measures: list[str], session: str = "", bin_trials: int = 1) -> pd.DataFrame:
-    """Measures of trials.csv over the trials of the session: of each person, and means over people.
+    """Measures of trials.csv over the trials of the session: each person's values, and means over people.
 
-    Rows are as in learning_curve(), with the `measure` and its `unit`; `session` is one of a study. With `bin_trials`, that
-    many trials of a block are a point. Raises NotThere.
+    Rows are as in learning_curve(), and have the `measure` and its `unit`; `session` names a session of a study. With
+    `bin_trials`, each point stands for that many trials of a block. Raises NotThere.
 
     >>> from dihaptic import figures
     >>> points = figures.measures_over_trials(figures.read(lift_session), measures=["peak_grip_N"])
@@ -659,7 +667,7 @@ def measures_over_trials(data: Data, *, measures: list[str], session: str = "", 
 def draw_measures_over_trials(
     points: pd.DataFrame, *, size: str = "two columns", height_mm: float = 48
 ) -> Figure:
-    """Draws measures_over_trials(): a panel for each measure, and a colour for each group.
+    """Draws measures_over_trials(), with a panel for each measure, and a colour for each group.
 
     >>> from dihaptic import figures
     >>> points = figures.measures_over_trials(figures.read(lift_session), measures=["peak_grip_N"])
@@ -678,7 +686,7 @@ def draw_measures_over_trials(
 
 
 def plans(data: Data) -> Iterator[Plan]:
-    """Learning curves, windows and generalisation of adaptation; or else courses of the task's measures."""
+    """Learning curves, windows and generalisation of adaptation; without adaptation, the task's measures over trials."""
     learned = data.has("adaptation") and bool(data.table("adaptation")["compensation"].notna().any())
     if learned:
         yield from _plans_of_curves(data)
@@ -702,7 +710,7 @@ def _quantity(data: Data, unit: str) -> str:
 
 
 def _left_out(table: pd.DataFrame, panels: int) -> str:
-    """What a course does not show, in sentences."""
+    """Sentences about what a course does not show."""
     catch = " Catch trials, whose places in their block differ between people, are left out." if _scattered(table).any() else ""
     return catch + _unnamed(table, panels)
 
@@ -826,7 +834,7 @@ def _plan_of_generalisation(data: Data) -> Iterator[Plan]:
     yield Plan(
         name="generalisation",
         title="Generalisation to other directions",
-        caption="Compensation without an error that is seen, less that before training, over the angle from the nearest trained "
+        caption="Compensation without a visible error, minus that before training, against the angle from the nearest trained "
         f"direction.{lines} {counted(people, 'person', 'people')}, {counted(int(table['trials'].sum()), 'trial')}.",
         points=generalisation_curve,
         drawing=draw_generalisation,

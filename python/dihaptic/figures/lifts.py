@@ -1,4 +1,4 @@
-"""Grip-lifts: courses of grip, load and height about lift-off, grip against load, change over lifts, durations of phases."""
+"""Grip-lifts: courses of grip, load and height around lift-off, grip against load, change over lifts, durations of phases."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Array = npt.NDArray[Any]
 HEADING = "Grip and lift"
 #: Maximum numbers of conditions in a panel, of panels side by side, and of conditions one below another.
 _MOST_CASES, _MOST_PANELS, _MOST_ROWS = 6, 4, 24
-#: Loads below this are treated as no load: the ratio of grip and load is not drawn there [N].
+#: Loads below this count as no load, so the ratio of grip and load is not drawn there [N].
 LEAST_LOAD = 0.2
 #: Quantities in a figure of courses, from top to bottom, and their units.
 QUANTITIES = {"grip force": "N", "load force": "N", "grip / load": "", "height": "mm"}
@@ -38,7 +38,7 @@ _AFTER_LIFT_OFF = 1.0
 #: End of the ratio's axis, as a multiple of the ratio's 90th percentile.
 _RATIO_AXIS = 1.6
 _DASHES: list[Any] = ["-", (0, (5, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1.5, 1.5)), (0, (3, 1)), (0, (6, 1.5, 1.5, 1.5, 1.5, 1.5))]
-#: Conditions that are named after a colour are drawn in it.
+#: Conditions that are named after a colour are drawn in that colour.
 _OF_COLOURS = {"blue": 0, "red": 1, "green": 2, "pink": 3, "orange": 4, "yellow": 4, "black": 6}
 
 
@@ -46,9 +46,9 @@ _OF_COLOURS = {"blue": 0, "red": 1, "green": 2, "pink": 3, "orange": 4, "yellow"
 
 
 def _joined(data: Data, trials: pd.DataFrame, lifts: pd.DataFrame) -> pd.DataFrame:
-    """Each lift with the columns of its trial, numbered for each person; of repeated attempts, the last.
+    """Each lift with the columns of its trial, numbered for each person; only the last of repeated attempts is included.
 
-    Of columns that both tables have, factors are those of the trial, and measures those of the lift.
+    If both tables have a column, it comes from the trial for factors, and from the lift for measures.
     """
     lifts = lifts.drop(columns=[name for name in data.factors if name in lifts and name in trials])
     keys = [key for key in ("person", "group", "session", "trial_num", "attempt") if key in trials and key in lifts]
@@ -66,7 +66,7 @@ def _joined(data: Data, trials: pd.DataFrame, lifts: pd.DataFrame) -> pd.DataFra
 
 
 def _presented(frame: pd.DataFrame) -> pd.Series:
-    """What differs between the trials of a block: the condition, the perturbation, or both."""
+    """The name of what differs between the trials of a block: the condition, the perturbation, or both."""
     words = pd.DataFrame(index=frame.index)
     words["condition"] = frame["condition"].fillna("").astype(str).replace("", "no condition")
     words["perturbation"] = frame["perturbation"].fillna("").astype(str).replace("", "no perturbation")
@@ -85,7 +85,7 @@ def _all_lifts(data: Data) -> pd.DataFrame:
 
 
 def _recorded_lifts(data: Data) -> pd.DataFrame:
-    """The lifts of the sessions with a recording; `of` is the number of its session in Data.recorded."""
+    """The lifts of the sessions with a recording; `of` is the number of a lift's session in Data.recorded."""
     parts = []
     for number, each in enumerate(data.recorded):
         if {"trials", "lifts"} <= set(each.session.tables):
@@ -104,7 +104,7 @@ def _counting(frame: pd.DataFrame, catch: bool) -> pd.DataFrame:
 
 
 def _levels(data: Data, column: str, found: list[Any]) -> list[Any]:
-    """Levels of a column in order: numbers by size, words in the order of the task."""
+    """Levels of a column in order: numbers are sorted by size, words by their order in the task."""
     if not any(isinstance(value, str) for value in found):
         return sorted(found)
     known: list[Any] = []
@@ -117,7 +117,7 @@ def _levels(data: Data, column: str, found: list[Any]) -> list[Any]:
 
 
 def _named(data: Data, frame: pd.DataFrame, colour: list[str], panel: str, most: int = _MOST_CASES) -> pd.DataFrame:
-    """The lifts with their condition and panel in words, those beyond the maximum left out, ordered by condition and panel."""
+    """The lifts, with condition and panel in words, sorted by condition and panel; those beyond the maximum are left out."""
     units = data.table("trials").attrs.get("units", {})
     for column in [*colour, *([panel] if panel else [])]:
         if column not in frame:
@@ -149,7 +149,7 @@ def _named(data: Data, frame: pd.DataFrame, colour: list[str], panel: str, most:
 
 
 def _sampled(data: Data, frame: pd.DataFrame, times: Array) -> dict[str, Array]:
-    """Grip force, load force and height about the times [s] of each lift; NaN beyond the lift's attempt.
+    """Grip force, load force and height around the times [s] of each lift; NaN beyond the lift's attempt.
 
     `times` and each array have the shape (lifts, times). The height is that of the lift's object above its place at touch.
     """
@@ -174,7 +174,7 @@ def _sampled(data: Data, frame: pd.DataFrame, times: Array) -> dict[str, Array]:
 
 
 def _ticks(session: Session, times: Array, lifts: pd.DataFrame) -> Array:
-    """The tick at each time, -1 where there is none within the lift's attempt."""
+    """The tick at each time; -1 if the lift's attempt has none then."""
     t = session.t
     known = np.where(np.isfinite(times), times, -1e9)
     at = np.searchsorted(t, known - session.tick / 2)
@@ -190,11 +190,11 @@ def _picked(values: Array, at: Array) -> Array:
 
 
 def _quartiles(rows: Array) -> Array:
-    """Lower quartile, median and upper quartile of each column; NaN where less than half of the rows are known."""
+    """Lower quartile, median and upper quartile of each column; NaN where fewer than half of the rows are known."""
     out = np.full((3, rows.shape[1]), np.nan)
     known = np.isfinite(rows).sum(axis=0)
     enough = np.flatnonzero((known > 0) & (2 * known >= len(rows)))
-    ordered = np.sort(rows, axis=0)  # unknown values come last; much faster than nanpercentile
+    ordered = np.sort(rows, axis=0)  # unknown values are sorted last; this is much faster than nanpercentile
     for i, share in enumerate((0.25, 0.5, 0.75)):
         place = share * (known[enough] - 1)
         below = np.floor(place).astype(int)
@@ -223,14 +223,14 @@ def lift_curves(
     data: Data, *, colour: list[str] | None = None, panel: str = "", align: str = "lift_off",
     before: float = 0.8, after: float = 1.5, step: float = 0.01, catch: bool = False,
 ) -> pd.DataFrame:  # fmt: skip
-    """Grip force, load force, their ratio and the object's height about a moment of lifts, from recordings.
+    """Grip force, load force, their ratio and the object's height around a moment of lifts, from recordings.
 
-    `colour` has the columns of trials.csv whose levels make up a condition (also "presented": what differs between the
-    trials of a block), `panel` is one whose levels get their own panels. `align` is lift_off, load_onset or touch; the
-    curves go from `before` to `after` that moment [s], every `step` [s]. A row is a time: `median`, and the quartiles `low`
-    and `high`, over a person's lifts, or over several people's medians. Grip over load is left out where the load is less
-    than 0.2 N. A value needs half of the lifts. Only complete lifts are included, and catch trials only with `catch`. Raises
-    NotThere, Error.
+    `colour` lists the columns of trials.csv whose levels make up a condition (or "presented", for what differs between
+    the trials of a block), and `panel` is a column whose levels get panels of their own. `align` is lift_off,
+    load_onset or touch; the curves go from `before` to `after` that moment [s], every `step` [s]. A row is a time:
+    `median`, and the quartiles `low` and `high`, over a person's lifts, or over several people's medians. The ratio of
+    grip to load is left out where the load is less than 0.2 N. A value is given where at least half of the lifts have
+    one. Only complete lifts are included, and catch trials only with `catch`. Raises NotThere, Error.
 
     >>> from dihaptic import figures
     >>> points = lift_curves(figures.read(lift_session))
@@ -262,7 +262,7 @@ def lift_curves(
 def draw_lift_curves(
     points: pd.DataFrame, *, align: str = "lift_off", legend: str = "", size: str = "one column", height_mm: float = 30,
 ) -> Figure:  # fmt: skip
-    """Draws lift_curves(): rows of panels of `height_mm` [mm] each for grip, load, their ratio and height.
+    """Draws lift_curves(), with rows of panels, each `height_mm` [mm] high, for grip, load, their ratio and height.
 
     `legend` is the title of the legend. Raises Error when there are no points.
 
@@ -292,7 +292,7 @@ def draw_lift_curves(
             _limit_ratio(axes[i * len(panels)], own)
         unit = str(own["unit"].iloc[0]) if own["unit"].notna().all() else ""
         axes[i * len(panels)].set_ylabel(f"{quantity} [{unit}]" if unit else quantity)
-        axes[i * len(panels)].margins(x=0.04)  # so that the last number of the axis stays on the canvas
+        axes[i * len(panels)].margins(x=0.04)  # this keeps the last number of the axis on the canvas
     _widen(axes)
     figure.align_ylabels()
     _legend(figure, cases, legend, marks=False)
@@ -300,7 +300,7 @@ def draw_lift_curves(
 
 
 def _limit_ratio(axes: Axes, points: pd.DataFrame) -> None:
-    """Ends the axis of the ratio above nearly all values: where the load dips for a moment, the ratio shoots up."""
+    """Ends the axis of the ratio just above nearly all values, because the ratio shoots up when the load dips for a moment."""
     ratios = points["median"].dropna()
     most = _RATIO_AXIS * float(ratios.quantile(0.9))
     axes.set_ylim(0, most if ratios.max() > most > 0 else max(1.05 * float(ratios.max()), 1e-9))
@@ -315,11 +315,11 @@ def grip_against_load(
 ) -> pd.DataFrame:
     """Grip force against load force while an object is loaded and lifted, from recordings.
 
-    Rows with the phase "loading" are medians at equal shares of the time from load onset to lift-off; "lifted", every 10 ms
-    during the first second after it; "hold", of the static grip and load of lifts.csv. All are medians over a person's lifts,
-    or over several people's medians. "slip" is the line on which the object slips, from its friction: it follows from the
-    safety margin of lifts.csv, and is left out unless that is the same in all lifts. For the other options see
-    lift_curves(). Raises NotThere, Error.
+    Rows with the phase "loading" are medians at equal shares of the time from load onset to lift-off; "lifted", every
+    10 ms during the first second after it; "hold", of the static grip and load of lifts.csv. All are medians over a
+    person's lifts, or over several people's medians. "slip" is the line below which the object slips because of its
+    friction: it follows from the safety margin of lifts.csv, and is left out unless it is the same in all lifts. For
+    the other options see lift_curves(). Raises NotThere, Error.
 
     >>> from dihaptic import figures
     >>> points = grip_against_load(figures.read(lift_session))
@@ -354,7 +354,8 @@ def grip_against_load(
 def _slip_ratio(lifts: pd.DataFrame) -> float:
     """The ratio of grip and load at which the object slips, NaN unless it is the same in all lifts.
 
-    The safety margin is (static grip - least grip) / static grip, so that least grip over load depends only on the friction.
+    The safety margin is (static grip - least grip) / static grip, so the ratio of least grip to load depends only on
+    friction.
     """
     ratios = ((1 - lifts["safety_margin"]) * lifts["static_ratio"]).dropna()
     if ratios.empty or ratios.max() - ratios.min() > 0.01 * ratios.median():
@@ -366,7 +367,7 @@ def _slip_ratio(lifts: pd.DataFrame) -> float:
 def draw_grip_against_load(
     points: pd.DataFrame, *, legend: str = "", size: str = "one column", height_mm: float = 70
 ) -> Figure:
-    """Draws grip_against_load(): the load is on the abscissa, and lifting goes to the right; marks are the hold.
+    """Draws grip_against_load(), with load on the abscissa, so that lifting goes to the right; marks show the hold.
 
     Raises Error when there are no points.
 
@@ -422,10 +423,10 @@ def successive_lifts(
 ) -> pd.DataFrame:
     """Measures of lifts.csv over successive lifts: of each person, and their means over people.
 
-    The lifts are numbered through the session, practice and incomplete ones included; or, with `repetition`, the complete
-    ones of each condition without practice. A row has the measure, its unit, block, condition, number of the lift, and `of`:
-    "person", or, with several people, "mean", over n people, if these are at least three quarters of all
-    (and this holds for at least half of a condition's numbers). For the other options see lift_curves(). Raises NotThere.
+    The lifts are numbered through the session, including practice and incomplete ones, or, with `repetition`, only the
+    complete ones of each condition without practice. A row has the measure, its unit, block, condition, number of the lift,
+    and `of`: "person", or, with several people, "mean", over n people, if these are at least three quarters of all (and this
+    holds for at least half of a condition's numbers). For the other options see lift_curves(). Raises NotThere.
 
     >>> from dihaptic import figures
     >>> len(successive_lifts(figures.read(lift_session), measures=["safety_margin"]))
@@ -446,7 +447,7 @@ def successive_lifts(
         each = known[["block", "condition", "person", "number", "value"]].assign(of="person", n=1)
         by = ["block", "condition", "number"]
         mean = each.groupby(by, sort=False)["value"].agg(value="mean", n="count").reset_index().assign(of="mean", person="")
-        # means over different people at each lift would show differences between people as if they were changes
+        # if each lift had the mean over different people, differences between people would look like changes
         enough = 4 * mean["n"] >= 3 * people
         common = enough.groupby([mean["block"], mean["condition"]]).transform("mean") >= 0.5
         mean = mean[enough & common]
@@ -463,10 +464,10 @@ def draw_successive_lifts(
     points: pd.DataFrame, *, legend: str = "", abscissa: str = "number of the lift", size: str = "two columns",
     height_mm: float = 45,
 ) -> Figure:  # fmt: skip
-    """Draws successive_lifts(): a panel of `height_mm` [mm] for each measure, with the names of blocks above.
+    """Draws successive_lifts(), with a panel, `height_mm` [mm] high, for each measure, and the names of blocks above.
 
-    Of several people, a condition that makes up most of a block has thin lines of people and a thick one of their mean;
-    others, and one person's lifts, are marks. Raises Error when there are no points.
+    With several people, a condition that makes up most of a block is drawn as thin lines for people and a thick one for
+    their mean; other conditions, and one person's lifts, are drawn as marks. Raises Error when there are no points.
 
     >>> from dihaptic import figures
     >>> points = figures.successive_lifts(figures.read(lift_session), measures=["safety_margin"])
@@ -496,7 +497,7 @@ def draw_successive_lifts(
 
 
 def _course_of_lifts(axes: Axes, part: pd.DataFrame, look: tuple[str, Any, str], joined: bool) -> None:
-    """The lifts of a condition in a block: lines of people and of their mean, or marks."""
+    """Draws the lifts of a condition in a block: lines of people and of their mean, or marks."""
     hue, dashes, marker = look
     people, mean = part[part["of"] == "person"], part[part["of"] == "mean"].sort_values("number")
     if joined and len(mean) > 1:
@@ -511,7 +512,7 @@ def _course_of_lifts(axes: Axes, part: pd.DataFrame, look: tuple[str, Any, str],
 
 
 def _name_blocks(axes: list[Axes], points: pd.DataFrame, width_mm: float) -> None:
-    """Lines between blocks, and their names above the first panel, in as many lines as they need."""
+    """Draws lines between blocks, and writes their names above the first panel, in as many lines as they need."""
     spans = points[points["block"] != ""].groupby("block")["number"].agg(["min", "max"]).sort_values("min")
     if len(spans) < 2:
         return
@@ -521,7 +522,7 @@ def _name_blocks(axes: list[Axes], points: pd.DataFrame, width_mm: float) -> Non
     for last, first in zip(ends, list(spans["min"])[1:]):
         for here in axes:
             here.axvline((last + first) / 2, color=QUIET, linewidth=0.5, linestyle=(0, (4, 2)), zorder=0)
-    rows: list[float] = []  # where the last name of each line ends
+    rows: list[float] = []  # the end of the last name of each line
     for name, first, last in zip(spans.index, spans["min"], spans["max"]):
         text = _shortened(level(str(name)), 40)
         half = len(text) * per_letter / 2
@@ -541,8 +542,9 @@ def _name_blocks(axes: list[Axes], points: pd.DataFrame, width_mm: float) -> Non
 def lift_phases(data: Data, *, colour: list[str] | None = None, catch: bool = False) -> pd.DataFrame:
     """Durations of preload, loading and releasing [s] by condition, from lifts.csv.
 
-    A row has the phase, the condition, and `of`: "person", whose median over n lifts is `value` (of one person: each lift);
-    or "median", that over n people or lifts, with the quartiles `low` and `high`. For the other options see lift_curves().
+    A row has the phase, the condition, and `of`: "person", if `value` is a person's median over n lifts (or a lift, if
+    there is one person); or "median", if it is the median over n people or lifts, with the quartiles `low` and `high`.
+    For the other options see lift_curves().
 
     >>> from dihaptic import figures
     >>> list(dict.fromkeys(lift_phases(figures.read(lift_session))["phase"]))
@@ -572,7 +574,7 @@ def lift_phases(data: Data, *, colour: list[str] | None = None, catch: bool = Fa
 def draw_lift_phases(
     points: pd.DataFrame, *, ordinate: str = "", size: str = "two columns", height_mm: float = 0
 ) -> Figure:
-    """Draws lift_phases(): a panel for each phase, and a line for each condition, dots, medians and quartiles.
+    """Draws lift_phases(), with a panel for each phase and, for each condition, a line of dots with median and quartiles.
 
     `ordinate` names the conditions; a height of 0 depends on their number. Raises Error when there are no points.
 
@@ -591,7 +593,7 @@ def draw_lift_phases(
         for case, part in own.groupby("condition", sort=False):
             dots, middle = part[part["of"] == "person"], part[part["of"] == "median"]
             hue, marker = COLOURS[i], MARKERS[i]
-            beside = place[case] + 0.18 + 0.04 * (np.arange(len(dots)) % 4)  # dots at the same place stay countable
+            beside = place[case] + 0.18 + 0.04 * (np.arange(len(dots)) % 4)  # keeps dots at the same place countable
             here.plot(1000 * dots["value"], beside, ".", color=hue, alpha=0.45, markersize=4, markeredgewidth=0)
             value, low, high = 1000 * middle[["value", "low", "high"]].to_numpy().T
             height = [place[case] - 0.1] * len(middle)
@@ -614,13 +616,13 @@ def draw_lift_phases(
 
 
 def _shortened(text: str, most: int = 34) -> str:
-    """A long name without its middle, since names of conditions often differ at their ends."""
+    """A long name with its middle cut out, since names of conditions often differ at their ends."""
     half = (most - 1) // 2
     return text if len(text) <= most else f"{text[:half]}…{text[-half:]}"
 
 
 def _known(points: pd.DataFrame, value: str) -> pd.DataFrame:
-    """The points whose panel, measure or phase has some value. Raises Error when there are none."""
+    """The points whose panel, measure or phase has any value. Raises Error when there are none."""
     if points.empty or not points[value].notna().any():
         raise error("has no values to draw", "Draw only what has at least one complete lift.", key="points")
     for column in ("quantity", "measure", "phase"):
@@ -631,7 +633,7 @@ def _known(points: pd.DataFrame, value: str) -> pd.DataFrame:
 
 
 def _texts(points: pd.DataFrame, column: str) -> list[str]:
-    """The different texts of a column, in their order; in a table read from CSV, an empty text is NaN."""
+    """The distinct texts of a column, in their order; in a table read from CSV, an empty text is NaN."""
     return [str(text) for text in dict.fromkeys(points[column].fillna(""))]
 
 
@@ -648,7 +650,7 @@ def _looks(cases: list[str]) -> dict[str, tuple[str, Any, str]]:
 
 
 def _widen(axes: list[Axes]) -> None:
-    """Forces and ratios that hardly change are not magnified into noise."""
+    """Keeps forces and ratios that hardly change from being magnified into noise."""
     for here in axes:
         low, high = here.get_ylim()
         if high - low < 1e-9:
@@ -659,7 +661,7 @@ def _legend(
     figure: Figure, cases: list[str], title: str, *, marks: bool, dashed: bool = True, more: list[Any] | None = None,
     names: list[str] | None = None,
 ) -> None:  # fmt: skip
-    """A legend of the conditions and of `more`, if there is more than one entry or the title names what they are."""
+    """Adds a legend of the conditions and of `more`, if it has several entries, or if its title names what they are."""
     looks = _looks(cases)
     handles = [Line2D([], [], color=hue, linestyle=dashes if dashed else "-", marker=marker if marks else None, markersize=4)
                for hue, dashes, marker in looks.values()]  # fmt: skip
@@ -675,13 +677,13 @@ def _legend(
 
 
 def _factors(data: Data, frame: pd.DataFrame) -> list[str]:
-    """Factors of the design whose level differs between lifts; numbers that are rarely repeated are not levels."""
+    """Factors of the design whose level differs between lifts; numbers that are rarely repeated do not count as levels."""
     names = [name for name in ["group", *data.factors] if name in frame]
     return [name for name in names if 1 < frame[name].nunique() <= max(2, len(frame) / 2)]
 
 
 def _design(data: Data, frame: pd.DataFrame) -> tuple[list[str], str]:
-    """Which columns colours stand for, and which one panels stand for."""
+    """The columns that colours stand for, and the one that panels stand for."""
     factors = _factors(data, frame)
     if not factors:
         if frame["presented"].nunique() < 2:
@@ -697,14 +699,14 @@ def _design(data: Data, frame: pd.DataFrame) -> tuple[list[str], str]:
 
 
 def _shows_catches(data: Data) -> bool:
-    """Whether catch trials are lifts of another object: they then show what was expected."""
+    """Whether catch trials are lifts of another object, in which case they show what was expected."""
     changes = any(part.get("body") for part in data.task.get("perturbations") or [])
     trials = data.table("trials")
     return changes and "kind" in trials and bool((trials["kind"] == "catch").any())
 
 
 def plans(data: Data) -> Iterator[Plan]:
-    """Courses about lift-off and grip against load, from recordings; change over lifts, and phases, from lifts.csv."""
+    """Courses around lift-off and grip against load, from recordings; change over lifts, and phases, from lifts.csv."""
     if not data.has("lifts") or not data.has("trials"):
         return
     catch = _shows_catches(data)
@@ -777,7 +779,7 @@ def _plans_of_change(data: Data, frame: pd.DataFrame, options: dict[str, Any], p
         return
     colour = options.get("colour", [])
     if panel in _factors(data, frame) and _is_surface(complete, panel):
-        colour = [panel]  # a surface says more about grip than a weight that nobody can foresee
+        colour = [panel]  # a surface explains grip better than a weight that nobody can foresee
     if frame["group"].nunique() > 1:
         colour = ["group"]
     orders = complete.assign(case=complete[["block", *colour]].astype(str).agg("/".join, axis=1)).groupby("lift_number")["case"]
@@ -802,7 +804,7 @@ def _plans_of_change(data: Data, frame: pd.DataFrame, options: dict[str, Any], p
 
 
 def _is_surface(lifts: pd.DataFrame, factor: str) -> bool:
-    """Whether the friction depends on this factor, and on no other one."""
+    """Whether the friction depends on this factor and on no other."""
     ratios = [_slip_ratio(own) for _, own in lifts.groupby(factor)]
     return bool(np.isfinite(ratios).all() and len(ratios) > 1 and max(ratios) > 1.01 * min(ratios))
 
@@ -819,7 +821,7 @@ def _dots(kept: pd.DataFrame) -> str:
 def _counts(
     data: Data, frame: pd.DataFrame, catch: bool, colour: list[str], panel: str, most: int, practice: bool = False
 ) -> str:
-    """How many people and lifts are drawn, and what is left out."""
+    """The numbers of people and lifts that are drawn, and a note on those that are left out."""
     kept = frame[frame["lift"] == "complete"] if practice else _counting(frame, catch)
     shown = _named(data, kept, colour, panel, most)
     wanted = frame if practice else frame[~frame["kind"].isin([k for k in ASIDE if not (catch and k == "catch")])]
@@ -833,7 +835,7 @@ def _counts(
 
 
 def _left_out(data: Data, kept: pd.DataFrame, shown: pd.DataFrame, colour: list[str], panel: str, most: int) -> str:
-    """Which conditions and panels are beyond the caps, for a caption."""
+    """A note for the caption on conditions and panels that exceed the maximum."""
     text = ""
     for columns, drawn, cap in ((colour, shown["case"], most), ([panel] if panel else [], shown["panel"], _MOST_PANELS)):
         levels = kept[columns].drop_duplicates() if columns else kept.iloc[:0]
@@ -854,10 +856,10 @@ _LEAST_PAIRS, _LEAST_RATIO = 10, 1.05
 def previous_weight(data: Data) -> pd.DataFrame:
     """The effect of the previous weight on a lift (Johansson and Westling 1988), for each person.
 
-    The regression is rate = a + b W + c W_before, of the largest rate of load force before lift-off on the weights held,
-    over consecutive complete lifts of a session. A row has the group, the person, `effect` (c, in N/s for each N), its standard
-    `error`, `share` (c / (b + c): 0 if only this weight matters, 1 if only the previous one does), and `n` pairs of lifts.
-    People whose weights vary by less than 5 %, or with fewer than ten pairs, have no row.
+    The regression is rate = a + b W + c W_before, of the largest rate of load force before lift-off on the weights
+    held, over consecutive complete lifts of a session. A row has the group, the person, `effect` (c, in N/s for each
+    N), its standard `error`, `share` (c / (b + c): 0 if only the present weight matters, 1 if only the previous one does),
+    and `n` pairs of lifts. People whose weights vary by less than 5 %, or who have fewer than ten pairs, have no row.
 
     >>> from dihaptic import figures
     >>> len(previous_weight(figures.read(lift_session)))

@@ -9,12 +9,12 @@ import pandas as pd
 from scipy import special
 
 
-#: How intervals were computed, in captions.
+#: The method by which intervals were computed, for captions.
 BY_T = " (Student's t)"
 
 
 def intervals(counts: pd.Series, how: str = "") -> str:
-    """Words for a caption on the intervals of means over so many values each: the mean of one value has no interval.
+    """Words for a caption about the intervals of means over these numbers of values: the mean of one value has no interval.
 
     >>> intervals(pd.Series([4, 4])), intervals(pd.Series([4, 1])), intervals(pd.Series([1, 1]))
     (' with 95 % intervals', ' with 95 % intervals where they are over several', ' (of one value each, so there is no interval)')

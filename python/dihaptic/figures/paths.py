@@ -30,9 +30,10 @@ if TYPE_CHECKING:
 
 #: Heading above these figures in a report.
 HEADING = "Movements"
-#: Kinds of trials whose reaches are drawn; in others, reaches are held or shown on a line, or not part of the design.
+#: Kinds of trials whose reaches are drawn; in other kinds, reaches are held or shown on a line, or are not part of the
+#: design.
 _SHOWN = ["baseline", "perturbed", "washout"]
-#: Number of reaches at the beginning, and at the end, of a block that show what is learned in it.
+#: Number of reaches at the beginning and at the end of a block that show how learning changes them.
 _FEW = 8
 #: Maximum numbers of panels in a figure, and of conditions with colours of their own.
 _MOST_PANELS = 12
@@ -42,11 +43,11 @@ _MOST_PATHS = 40
 #: Time between points of a curve [s], and time drawn before onset [s].
 _STEP = 0.005
 _BEFORE = 0.1
-#: Share of reaches that must last for a median: with fewer, it would jump where one of few reaches ends.
+#: Share of reaches that must still last for a median to be drawn: with fewer, it would jump where one of them ends.
 _LASTING = 0.75
 #: A movement over a shorter distance is not a reach [m].
 _LEAST_WAY = 0.02
-#: Slower movement is tremor (docs/measures-of-behaviour.md) [m/s].
+#: Movement slower than this is tremor (docs/measures-of-behaviour.md) [m/s].
 _LEAST_PEAK = 0.05
 #: More colours, for targets around a circle.
 _HUES = [*COLOURS, QUIET]
@@ -58,7 +59,7 @@ _DASHES: list[Any] = ["-", (0, (5, 1.5)), (0, (1.2, 1)), (0, (5, 1.2, 1.2, 1.2))
 
 @dataclass(frozen=True)
 class _Reach:
-    """A reach: of the last attempt at a trial, from the start of the state in which it is made to the state that ends it."""
+    """A reach in the last attempt at a trial, from the start of the state in which it is made to the state that ends it."""
 
     person: str
     group: str
@@ -81,7 +82,7 @@ class _Reach:
 
 
 def _reaches(data: Data) -> list[_Reach]:
-    """The reaches of all recorded sessions, read once."""
+    """The reaches of all recorded sessions, which are read only once."""
     cache: dict[str, Any] = data.__dict__
     if "_reaches" not in cache:
         found: list[_Reach] = []
@@ -129,7 +130,7 @@ class _Reader:
         return [reach for reach in made if reach is not None]
 
     def _moving(self, of: str) -> list[str]:
-        """The recorded points that move, as the beginning of a quantity's name, such as "index.handle_"; several are averaged."""
+        """The beginnings of the names of the moving points' quantities, such as "index.handle_"; several points are averaged."""
         fingers = self.session.fingers
         points = [f"{name}.handle_" for name in fingers if of in (name, "hand")]
         points = [f"{of}."] if of in self.session.bodies else points
@@ -155,7 +156,7 @@ class _Reader:
         return trials[known]
 
     def _walls_last(self) -> bool:
-        """Whether channels act in all states of the movement: otherwise the force is not comparable with the ideal one."""
+        """Whether channels act in all states of the movement; otherwise the force cannot be compared with the ideal one."""
         for own in self.task.get("perturbations") or []:
             channel = any(load.get("kind") == "channel" for load in own.get("loads") or [])
             if channel and own.get("during") and not set(self.during) <= set(_words_in(own["during"])):
@@ -193,7 +194,7 @@ class _Reader:
         )  # fmt: skip
 
     def _part(self, row: dict[str, Any]) -> slice | None:
-        """The ticks from the entry to the first of the states until these are left; None if any is missing."""
+        """The ticks from entry into the first of these states until the last of them is left; None if any tick is missing."""
         half = self.session.tick / 2
         own = np.flatnonzero((self.begins >= row["start_time"] - half) & (self.begins <= row["stop_time"] + half))
         inside = self.inside[own]
@@ -282,7 +283,7 @@ def _onset(speed: Array, position: Array, way: float, options: dict[str, Any], t
 
 
 def _end(speed: Array, peak: int, threshold: float, pause: int) -> int:
-    """The tick after the peak from which on the speed stays below the threshold for more than a pause."""
+    """The tick after the peak from which the speed stays below the threshold for longer than a pause."""
     slow = 0
     for i, value in enumerate(map(float, speed[peak:]), peak):
         slow = slow + 1 if value < threshold else 0
@@ -313,13 +314,13 @@ def _first_stroke(speed: list[float]) -> tuple[int, int]:
 class _Sheet:
     """The reaches of one figure, by panel."""
 
-    name: str  #: for the name of its file; "" if it is the only figure
+    name: str  #: part of its file's name; "" if it is the only figure
     title: str
     panels: dict[str, list[_Reach]]
 
 
 def _sheets(data: Data) -> list[_Sheet]:
-    """The figures of an experiment, and the panels of each: rounds and groups, or stages of learning in each of them."""
+    """The figures of an experiment, and the panels of each figure: rounds and groups, or the stages of learning in them."""
     rounds = [str(own.get("name")) for own in data.task.get("rounds") or []]
     shown = [reach for reach in _reaches(data) if reach.kind in _SHOWN or not reach.kind]
     # the order of rounds may differ between people
@@ -336,7 +337,7 @@ def _sheets(data: Data) -> list[_Sheet]:
 
 
 def _parts_of(name: str, panels: dict[str, list[_Reach]]) -> Iterator[_Sheet]:
-    """Figures with these panels, each with as many as a page has room for."""
+    """Figures with these panels, with as many panels in each as fit on a page."""
     names = list(panels)
     for first in range(0, len(names), _MOST_PANELS):
         number = str(first // _MOST_PANELS + 1) if len(names) > _MOST_PANELS else ""
@@ -395,7 +396,7 @@ def _sheet(data: Data, name: str) -> _Sheet:
 
 
 def _colours_of(data: Data, reaches: list[_Reach], of_speed: bool = False) -> dict[str, list[_Reach]]:
-    """Reaches by what colours stand for: conditions; if there are too many, the target or, for speed, its distance."""
+    """Reaches by the meaning of their colours: conditions or, if there are too many, the target or, for speed, its distance."""
     names = list(dict.fromkeys(reach.condition for reach in reaches))
     known = [name for name in data.conditions if name in names]
     order = [*known, *sorted((name for name in names if name not in known), key=_by_number)]
@@ -425,8 +426,8 @@ def _by_number(name: str) -> tuple[list[float], str]:
 def _plane(reaches: list[_Reach]) -> tuple[Array, Array]:
     """Unit vectors to the right and upward in the plane that is drawn.
 
-    That is the plane across the axis about which angles and sides are defined, unless the way to a target is almost along
-    that axis; otherwise the two of x, y and z along which the hand went farthest.
+    That is the plane across the axis about which angles and sides are defined; if the path to a target is almost parallel to
+    that axis, it is the plane of those two of x, y and z along which the hand went farthest.
     """
     axes = np.array([reach.axis for reach in reaches])
     normal = axes[0] / np.linalg.norm(axes[0]) if np.linalg.norm(axes[0]) > 0 else np.full(3, math.nan)
@@ -434,7 +435,7 @@ def _plane(reaches: list[_Reach]) -> tuple[Array, Array]:
     across = np.abs(ways @ normal) / np.linalg.norm(ways, axis=1)
     if not (np.isfinite(axes).all() and np.ptp(axes, axis=0).max() < 1e-6 and (across < 0.9).all()):
         extents = np.median([np.ptp(reach.path, axis=0) for reach in reaches], axis=0)
-        # if two extents are equal, rather the plane of x and y, seen from above
+        # if two extents are equal, prefers the plane of x and y, seen from above
         normal = np.eye(3)[2 - int(np.argmin(extents[::-1]))]
     if abs(normal[2]) > 0.95:
         return np.array([1.0, 0, 0]), np.array([0, 1.0, 0])
@@ -452,7 +453,7 @@ def _direction(vector: Array) -> str:
 
 
 def _chosen(by_colour: dict[str, list[_Reach]], most: int) -> dict[str, list[_Reach]]:
-    """At most so many reaches, spread evenly over colours, people and trials."""
+    """At most this many reaches, spread evenly over colours, people and trials."""
     all_of = [(name, reach) for name, own in by_colour.items() for reach in own]
     if len(all_of) > most:
         all_of = [all_of[i] for i in np.unique(np.linspace(0, len(all_of) - 1, most).round().astype(int))]
@@ -463,13 +464,14 @@ def _chosen(by_colour: dict[str, list[_Reach]], most: int) -> dict[str, list[_Re
 def reach_paths(data: Data, *, part: str = "", most: int = _MOST_PATHS) -> pd.DataFrame:
     """Paths of reaches in the plane in which they are drawn, from recordings: a row for each point, 5 ms apart.
 
-    `part`: of an experiment with several figures, the one that is drawn; `most`: paths in a panel. Columns: `panel`,
-    `colour` (the condition; of more than seven, the vector to the target: x y z in mm), `of` ("path", "start" or
-    "target"), `person`, `session`, `trial_num`, `time_s` from the start of the state, `across_mm` and `up_mm`, and
-    `radius_mm` of starts and targets (NaN: not known). A path is that of the last attempt at a trial, from the start of
-    the state in which the reach is made to the state that ends it. Raises NotThere, or Error without such recordings.
+    `part` selects one of an experiment's figures, if it has several; `most` is the maximum number of paths in a panel.
+    Columns: `panel`, `colour` (the condition; of more than seven, the vector to the target: x y z in mm), `of` ("path",
+    "start" or "target"), `person`, `session`, `trial_num`, `time_s` from the start of the state, `across_mm` and `up_mm`,
+    and `radius_mm` of starts and targets (NaN: not known). A path belongs to the last attempt at a trial, and goes from the
+    start of the state in which the reach is made to the state that ends it. Raises NotThere, or Error without such
+    recordings.
 
-    `python/dihaptic/figures/paths.py` says which plane is drawn. A rehearsal has recordings only if it is made by
+    `python/dihaptic/figures/paths.py` explains which plane is drawn. A rehearsal has recordings only if it is made by
     `dh.rehearse(..., keep_recordings=True)`.
     """
     sheet = _sheet(data, part)
@@ -515,8 +517,8 @@ def draw_reach_paths(
 ) -> Figure:  # fmt: skip
     """Draws reach_paths() to scale: thin lines with a mark at their ends, circles where they start and where targets are.
 
-    `across` and `up` say in words where right and top of the page are; `bar_mm` is the length of the scale bar;
-    `height_mm` is the maximum height of a row of panels. Limits are the same in all panels.
+    `across` and `up` say in words to which directions the right and the top of the page correspond; `bar_mm` is the length
+    of the scale bar; `height_mm` is the maximum height of a row of panels. Limits are the same in all panels.
     """
     if points.empty:
         raise error("has no path", "Draw a table of reach_paths() with rows.", key="points")
@@ -541,7 +543,7 @@ def draw_reach_paths(
         axes.set_aspect("equal")
         axes.spines[["left", "bottom"]].set_visible(False)
         if len(panels) > 1:
-            # a panel to scale may be narrower than its title
+            # a panel that is drawn to scale may be narrower than its title
             axes.set_title(wrapped(_level(panels[i]), letters), loc="center")
         if i % columns == 0:
             axes.set_ylabel(wrapped(f"{up} →", int(each / 1.6)), color=QUIET)
@@ -555,12 +557,12 @@ def draw_reach_paths(
 
 
 def _with_names(points: pd.DataFrame) -> pd.DataFrame:
-    """The points, with an empty name for the only panel or colour, since a CSV file cannot tell it from a missing one."""
+    """The points, with the empty name of an only panel or colour restored: a CSV file cannot tell it from a missing value."""
     return points.assign(colour=points["colour"].fillna("").astype(str), panel=points["panel"].fillna("").astype(str))
 
 
 def _place_in(points: pd.DataFrame) -> dict[str, int]:
-    """The order of colours: that in which they appear in all panels together."""
+    """The colours, in the order in which they first appear in the panels."""
     order: list[str] = []
     for _, own in points.groupby("panel", sort=False):
         names = list(dict.fromkeys(own["colour"]))
@@ -572,7 +574,7 @@ def _place_in(points: pd.DataFrame) -> dict[str, int]:
 
 
 def _legend(figure: Figure, handles: list[Line2D], colours: list[str], title: str) -> None:
-    """A legend above all panels, with room for names of several lines."""
+    """Draws a legend above all panels, with space for names of several lines."""
     names = [wrapped(_level(name), int(figure.get_figwidth() * 72 / 4.6) - 8) for name in colours]
     legend_above(figure, handles, names, title)
     more = sum(name.count("\n") for name in names) * 7 * 1.45 / (figure.get_figheight() * 72)
@@ -586,13 +588,13 @@ def _level(name: Any) -> str:
 
 
 def _box(points: pd.DataFrame) -> tuple[Array, Array]:
-    """Lower left and upper right of all panels [mm], with room for the scale bar below."""
+    """The lower left and upper right corners of all panels [mm], with space for the scale bar below."""
     places = points[["across_mm", "up_mm"]].to_numpy(float)
     radius = points["radius_mm"].fillna(0).to_numpy(float)[:, None]
     low, high = np.nanmin(places - radius, axis=0), np.nanmax(places + radius, axis=0)
     widest = float((high - low).max()) or 1.0
     middle = (low + high) / 2
-    # leaves room beside a straight path, whose panel would otherwise have no width
+    # leaves space beside a straight path, whose panel would otherwise have no width
     half = np.maximum((high - low) / 2 + 0.03 * widest, 0.15 * widest)
     low, high = middle - half, middle + half
     low[1] -= 0.13 * widest
@@ -600,7 +602,7 @@ def _box(points: pd.DataFrame) -> tuple[Array, Array]:
 
 
 def _columns(panels: int, extent: Array, size: str, height_mm: float) -> int:
-    """Number of panels in a row with which they have about the largest height, and that rows are filled evenly."""
+    """The number of panels in a row that makes them about as high as possible, and fills the rows evenly."""
     narrow = height_mm * extent[0] / extent[1]
     fit = max(1, min(int((WIDTHS[size] - 8) / max(narrow, 30)), 6))
     fit = max(fit, min(panels, 4 if size == "two columns" else 2))
@@ -644,10 +646,10 @@ def _scale_bar(axes: Axes, bar_mm: float, low: Array, high: Array) -> None:
 def speed_profiles(data: Data, *, part: str = "") -> pd.DataFrame:
     """Speed against time from movement onset, from recordings: median and quartiles over reaches, every 5 ms.
 
-    `part`: of an experiment with several figures, the one that is drawn. Columns: `panel`, `colour` (the condition; of
+    `part` selects one of an experiment's figures, if it has several. Columns: `panel`, `colour` (the condition; of
     more than seven, the distance of the target), `time_s`, `n` reaches of `of_n`, and `median_m_s`, `lower_m_s` and
-    `upper_m_s`. Onset is that of docs/measures-of-behaviour.md; a time is included while three quarters of the reaches last.
-    Raises NotThere, or Error without such recordings.
+    `upper_m_s`. Onset is defined as in docs/measures-of-behaviour.md; a time is included while three quarters of the reaches
+    last. Raises NotThere, or Error without such recordings.
 
     A rehearsal has recordings only if it is made by `dh.rehearse(..., keep_recordings=True)`.
     """
@@ -684,7 +686,7 @@ def _quartiles(curves: list[tuple[float, Array]], unit: str) -> pd.DataFrame:
 
 
 def _time_panels(panels: list[str], size: str, height_mm: float, legend: bool) -> tuple[Figure, list[Axes], int]:
-    """A figure with a panel for each name, all with the same limits, and the number of columns."""
+    """A figure with a panel for each name, all with the same limits, and the number of its columns."""
     most = 4 if size == "two columns" else 2
     rows = -(-len(panels) // most)
     columns = -(-len(panels) // rows)
@@ -706,7 +708,7 @@ def _time_panels(panels: list[str], size: str, height_mm: float, legend: bool) -
 def draw_speed_profiles(
     points: pd.DataFrame, *, size: str = "one column", height_mm: float = 50, legend: str = ""
 ) -> Figure:
-    """Draws speed_profiles(): lines are medians, bands reach from quartile to quartile (with four colours or fewer).
+    """Draws speed_profiles(): lines are medians, and bands extend from quartile to quartile (with four colours or fewer).
 
     `legend` is what the colours stand for, in words.
     """
@@ -741,7 +743,7 @@ def draw_speed_profiles(
 
 
 def _channel_stages(data: Data) -> dict[str, list[_Reach]]:
-    """Reaches in channels by block: of perturbed ones, those of the first and of the last third, at most eight."""
+    """Reaches in channels by block; in perturbed blocks, at most eight in the first third and at most eight in the last."""
     kinds = {str(block.get("name")): str(block.get("kind", "")) for block in data.task.get("blocks") or []}
     with_force = [reach for reach in _reaches(data) if reach.force is not None]
     several = len({(reach.group, reach.round) for reach in with_force}) > 1
@@ -765,10 +767,10 @@ def _channel_stages(data: Data) -> dict[str, list[_Reach]]:
 def channel_forces(data: Data) -> pd.DataFrame:
     """Force of the hand on channels and the ideal force against time from movement onset: median and quartiles, every 5 ms.
 
-    The ideal force would cancel the field that is learned at the speed that the hand had in the channel
-    (docs/measures-of-behaviour.md). Columns: `panel` (block; of perturbed ones, its first and last channels), `force`
-    ("on the channel" or "ideal"), `time_s`, `n` reaches of `of_n`, `median_N`, `lower_N`, `upper_N`; positive: to the
-    left. Raises Error without recorded reaches in channels.
+    The ideal force would cancel the field that is learned, at the speed of the hand in the channel
+    (docs/measures-of-behaviour.md). Columns: `panel` (block; of perturbed ones, its first and last channels), `force` ("on
+    the channel" or "ideal"), `time_s`, `n` reaches of `of_n`, `median_N`, `lower_N`, `upper_N`; positive: to the left.
+    Raises Error without recorded reaches in channels.
 
     A rehearsal has recordings only if it is made by `dh.rehearse(..., keep_recordings=True)`.
     """
@@ -854,10 +856,10 @@ def _plan_of_paths(data: Data, sheet: _Sheet) -> Plan:
 
 
 def _cut(sheet: _Sheet) -> str:
-    """A sentence on panels of which not all paths are drawn."""
+    """A sentence about panels in which not all paths are drawn."""
     many = {name: len(own) for name, own in sheet.panels.items() if len(own) > _MOST_PATHS}
     cut = [f"{_MOST_PATHS} of {count}" + (f' in "{name}"' if name else "") for name, count in many.items()]
-    return f" Drawn are {', '.join(cut)}, spread evenly over conditions, people and trials." if cut else ""
+    return f" The figure shows {', '.join(cut)}, spread evenly over conditions, people and trials." if cut else ""
 
 
 def _counts(reaches: list[_Reach]) -> str:

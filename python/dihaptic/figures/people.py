@@ -1,4 +1,4 @@
-"""Writes each person's means, in a long and in a wide table, for programs of statistics such as JASP, SPSS and R."""
+"""Writes each person's means into a long and a wide table, for statistics programs such as JASP, SPSS and R."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def means_of_people(data: Data) -> pd.DataFrame:
 
 def in_columns(long: pd.DataFrame) -> pd.DataFrame:
     """A table of means_of_people() with a row for each person, and a column for each measure in each condition, such as
-    peak_grip_N_80_smooth: a name of letters, digits and underscores, as statistics programs want it."""
+    peak_grip_N_80_smooth: a name of letters, digits and underscores, as statistics programs require."""
     by = [name for name in long if name not in ("person", "group", "measure", "unit", "n", "mean")]
     names: dict[tuple[str, ...], str] = {}
     for case in long[["measure", *by]].drop_duplicates().itertuples(index=False):

@@ -1,4 +1,4 @@
-"""Psychophysics: psychometric functions, thresholds, courses of procedures, and answers in two words by a factor."""
+"""Psychophysics: psychometric functions, thresholds, courses of procedures, and binary answers by a factor."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from .words import counted, in_print, label, level, words_of
 HEADING = "Thresholds"
 #: Maximum numbers of panels in a figure, and of lines with colours of their own.
 _MOST_PANELS, _MOST_COLOURS = 9, 7
-#: Minimum number of answers at a level for an interval: with fewer, it would fill the panel and say nothing.
+#: Minimum number of answers at a level for an interval, which would fill the panel and say nothing with fewer.
 _LEAST_ANSWERS = 5
-#: An outcome is frequent if it ended at least this share of the included trials.
+#: An outcome counts as frequent if it ended at least this share of the included trials.
 _FREQUENT = 0.05
 _ALL = "all of these"  # kind of a fit to the answers of several procedures
 _OUTSIDE = "outside of the levels"  # beginning of the note on a threshold that is a guess
@@ -55,7 +55,7 @@ def wilson(yes: Any, n: Any) -> tuple[Any, Any]:
 def probability(
     levels: Any, *, sigmoid: str, threshold: float, shape: float, guess: float = 0.0, lapse: float = 0.0
 ) -> Any:  # fmt: skip
-    """The probability of yes by a psychometric function, at levels in its own unit (log10 if they are logarithms).
+    """The probability of yes according to a psychometric function, at levels in its own unit (log10 if they are logarithms).
 
     `sigmoid`: normal, logistic, weibull or weibull_log10, as in a task's procedures; `threshold` and `shape` are those of
     thresholds.csv. Raises NotThere for another sigmoid.
@@ -81,7 +81,7 @@ def probability(
 
 @dataclass(frozen=True)
 class _Procedure:
-    """A procedure, or several whose answers have a function in common, as recorded in procedures.csv."""
+    """A procedure, or several procedures whose answers share a function, as recorded in procedures.csv."""
 
     name: str
     parts: tuple[str, ...]  # names of the procedures
@@ -179,7 +179,7 @@ def _joint(data: Data, single: list[_Procedure]) -> list[_Procedure]:
 
 
 def _parts(name: str, candidates: list[_Procedure]) -> list[_Procedure]:
-    """Those of the candidates whose names, joined by commas in their order, are `name`; [] if there are none."""
+    """The candidates whose names, joined by commas in their order, are `name`; [] if there are none."""
     for i, each in enumerate(candidates):
         if name == each.name:
             return [each]
@@ -204,7 +204,7 @@ def _of_sitting(table: pd.DataFrame, procedure: _Procedure) -> pd.DataFrame:
 
 
 def _answers(data: Data, procedure: _Procedure) -> pd.DataFrame:
-    """The answers of all people, in order: level in its unit, whether it was yes, number of the answer from 1."""
+    """The answers of all people, in order: the level in its unit, whether the answer was yes, and the answer's number from 1."""
     trials = _of_sitting(data.table("trials"), procedure)
     own = trials[trials["procedure"].isin(procedure.parts) & trials["outcome"].isin([procedure.yes, procedure.no])].copy()
     own["level"] = pd.to_numeric(own[procedure.column], errors="coerce") if procedure.column in own else np.nan
@@ -249,7 +249,7 @@ def _finished(parts: list[dict[str, Any]], columns: list[str], procedures: list[
 
 
 def _mean(values: pd.Series, logarithmic: bool) -> dict[str, Any]:
-    """The mean over people with its 95 % interval (Student's t); that of the logarithms, if levels are."""
+    """The mean over people with its 95 % interval (Student's t); it is the mean of the logarithms, if levels are logarithms."""
     x = np.log10(values) if logarithmic else values
     n = len(x)
     middle = x.mean()
@@ -272,9 +272,8 @@ def psychometric_functions(data: Data, *, procedures: list[str] | None = None) -
     interval; "curve", a point of a person's function; "threshold", at `level`, where the function's value is `value`, with
     its 95 % interval of levels from `low` to `high`; "mean" of n people's thresholds, with its interval of levels;
     "chance", the share of guesses; "standard", its level. Levels have the unit `unit`, and are never logarithms; the mean
-    is the geometric one where `logarithmic`. Shares at levels are those of one person. Thresholds outside of the levels
-    shown are left out.
-    `procedures`: names, by default all. Raises NotThere, or Error when there are no answers.
+    is the geometric one where `logarithmic`. Shares at levels are given only for one person. Thresholds outside the levels
+    shown are left out. `procedures`: names, by default all. Raises NotThere, or Error when there are no answers.
 
     >>> from dihaptic import figures
     >>> psychometric_functions(figures.read(lift_session))
@@ -312,7 +311,7 @@ def _mean_thresholds(fits: pd.DataFrame, procedure: _Procedure) -> Iterator[dict
 
 
 def _shares(answers: pd.DataFrame, procedure: _Procedure) -> Iterator[dict[str, Any]]:
-    """The share of yes at each level; levels that differ only by rounding are one."""
+    """The share of yes at each level; levels that differ only by rounding count as one."""
     own = answers.sort_values("level", kind="stable")
     at = np.log10(own["level"]) if procedure.logarithmic else own["level"]
     # as in the program: sums of a staircase's steps return to a level only up to rounding
@@ -369,9 +368,9 @@ def _interval(text: Any) -> list[float]:
 def draw_psychometric_functions(
     points: pd.DataFrame, *, size: str = "one column", height_mm: float = 55
 ) -> Figure:
-    """Draws psychometric_functions(): a panel for each procedure, and a colour for each group.
+    """Draws psychometric_functions(), with a panel for each procedure, and a colour for each group.
 
-    `height_mm` is that of a row of panels.
+    `height_mm` is the height of a row of panels.
 
     >>> import pandas as pd
     >>> common = {"procedure": "finger", "kind": "constant", "quantity": "width", "unit": "mm", "logarithmic": False}
@@ -387,7 +386,7 @@ def draw_psychometric_functions(
     figure, panels = _panels(points, size, height_mm)
     largest = points.loc[points["of"] == "level", "n"].max()
     shares = pd.concat([points["value"], points.loc[points["of"] == "level", "low"]])
-    lowest = 0.5 if shares.min() >= 0.48 else 0  # in a forced choice, shares are hardly below 0.5
+    lowest = 0.5 if shares.min() >= 0.48 else 0  # in a forced choice, shares are rarely below 0.5
     for axes, own in panels:
         _quiet_lines(axes, own)
         for i, group in enumerate(groups):
@@ -413,7 +412,7 @@ def _groups(points: pd.DataFrame) -> list[str]:
 
 
 def _quiet_lines(axes: Axes, own: pd.DataFrame) -> None:
-    """Chance, and the standard."""
+    """Draws the chance level, and the standard."""
     for value in own.loc[own["of"] == "chance", "value"]:
         axes.axhline(value, color=QUIET, linewidth=0.6, linestyle=":", zorder=0)
     for value in own.loc[own["of"] == "standard", "level"]:
@@ -421,7 +420,7 @@ def _quiet_lines(axes: Axes, own: pd.DataFrame) -> None:
 
 
 def _function(axes: Axes, own: pd.DataFrame, i: int, several: bool, largest: float, dark: str) -> None:
-    """One group's or person's function: shares at levels, curves, thresholds."""
+    """Draws one group's or person's function: shares at levels, curves, thresholds."""
     hue, marker = COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]
     shares = own[own["of"] == "level"]
     known = shares[shares["low"].notna()]
@@ -486,7 +485,7 @@ def _panels(points: pd.DataFrame, size: str, height_mm: float) -> tuple[Figure, 
     names = list(dict.fromkeys(points["procedure"]))
     columns = _columns(len(names), size)
     rows = -(-len(names) // columns)
-    # names and a legend take a larger part of a figure with one row
+    # in a figure with one row, names and a legend take a larger part of the height
     figure, all_axes = canvas(size, height_mm * rows + 8, rows, columns)
     for axes in all_axes[len(names) :]:
         axes.set_visible(False)
@@ -503,14 +502,14 @@ def _columns(panels: int, size: str) -> int:
 
 
 def _level_axes(panels: list[tuple[Axes, pd.DataFrame]], axis: str) -> None:
-    """The axes of levels: those of one quantity have the same limits; logarithmic, if its levels are."""
+    """Sets the axes of levels: axes of the same quantity have the same limits, and are logarithmic if its levels are."""
     keys = [tuple(own[["quantity", "unit", "logarithmic"]].fillna("").iloc[0]) for _, own in panels]
     for key in dict.fromkeys(keys):
         some = [(axes, own) for (axes, own), other in zip(panels, keys) if other == key]
         logarithmic = bool(key[2]) and all(bool((own["level"].dropna() > 0).all()) for _, own in some)
         shown = pd.concat([_extent(own, logarithmic) for _, own in some])
         low, high = (float(shown.min()), float(shown.max())) if len(shown) else (0.0, 1.0)
-        # a panel of one level has a width, too
+        # a panel with a single level needs a width, too
         margin = 0.07 * (high - low) or 0.1 * (abs(high) or 1)
         limits = [10**end if logarithmic else end for end in (low - margin, high + margin)]
         for axes, _ in some:
@@ -524,7 +523,7 @@ def _level_axes(panels: list[tuple[Axes, pd.DataFrame]], axis: str) -> None:
 
 
 def _extent(own: pd.DataFrame, logarithmic: bool) -> pd.Series:
-    """What an axis of levels, or of their logarithms, has to show: an interval may end far from all levels."""
+    """The range that an axis of levels, or of their logarithms, has to show: an interval may end far from all levels."""
     levels = own["level"].dropna().astype(float)
     mean = own[own["of"] == "mean"]
     ends = pd.concat([mean["low"], mean["high"]]).dropna().astype(float) if "low" in own else pd.Series(dtype=float)
@@ -557,7 +556,10 @@ def _quantity(own: pd.DataFrame) -> str:
 
 
 def _label_all(panels: list[tuple[Axes, pd.DataFrame]], *, x: str | None, y: str | None, size: str) -> None:
-    """Labels of all panels; None: the quantity of the levels. A label equal to that of the panel to the left is not repeated."""
+    """Labels of all panels; None: the quantity of the levels.
+
+    A label equal to that of the panel to the left is not repeated.
+    """
     columns = _columns(len(panels), size)
     width = WIDTHS[size] / columns
     for i, (axes, own) in enumerate(panels):
@@ -579,11 +581,11 @@ _THRESHOLD = ["measure", "quantity", "unit", "logarithmic", "procedure", "group"
 def thresholds_by_procedure(
     data: Data, *, measure: str = "threshold_share", procedures: list[str] | None = None
 ) -> pd.DataFrame:
-    """A figure of thresholds.csv of each person and procedure, and its means over people.
+    """A measure of thresholds.csv for each person and procedure, and its means over people.
 
     `measure`: threshold_share, the threshold in the unit of the level; weber_fraction; or mean_of_reversals. A row has
     its procedure and group, and `of`: "person", or "mean" over n people with its 95 % interval (Student's t); the
-    geometric mean, where `logarithmic`. Thresholds outside of the levels shown are left out. Raises NotThere, or Error when
+    geometric mean, where `logarithmic`. Thresholds outside the levels shown are left out. Raises NotThere, or Error when
     there is none.
 
     >>> from dihaptic import figures
@@ -622,7 +624,8 @@ def thresholds_by_procedure(
 
 @drawing
 def draw_thresholds(points: pd.DataFrame, *, size: str = "one column", height_mm: float = 60) -> Figure:
-    """Draws thresholds_by_procedure(): people as dots, means with intervals; a panel for each quantity, a colour for each group.
+    """Draws thresholds_by_procedure(): people as dots, and means with intervals, with a panel for each quantity, and a
+    colour for each group.
 
     Where all people did all procedures of a panel, a line joins each one's dots.
 
@@ -660,7 +663,7 @@ def draw_thresholds(points: pd.DataFrame, *, size: str = "one column", height_mm
 
 
 def _people_and_mean(axes: Axes, own: pd.DataFrame, names: list[str], i: int, groups: int) -> None:
-    """Dots of a group's people, joined over procedures, and their means beside them."""
+    """Draws a group's people as dots, joined over procedures, and their means beside them."""
     hue, marker = COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]
     step = 0.8 / (groups + 1)
     aside = (i - (groups - 1) / 2) * step
@@ -688,10 +691,10 @@ def procedure_courses(data: Data, *, procedures: list[str] | None = None) -> pd.
     """The levels that procedures chose, answer after answer.
 
     A row has its procedure, and `of`: "answer", with its number from 1, its trial, its level and whether it was yes;
-    "reversal" of a staircase, if not ignored, at the last answer before the direction changed; "mean" level of n people at an
-    answer, as long as all of them answer, three times at least (the geometric mean, where `logarithmic`); "threshold", of
-    the fitted function or, of several people, the mean of theirs; those outside of the levels shown are left out.
-    Procedures with constant levels have no course. Raises NotThere, or Error when there are no answers.
+    "reversal" of a staircase, if not ignored, at the last answer before the direction changed; "mean" level of n people
+    at an answer, as long as all of them answer, three times at least (the geometric mean, where `logarithmic`);
+    "threshold", of the fitted function or, of several people, the mean of theirs; those outside of the levels shown are
+    left out. Procedures with constant levels have no course. Raises NotThere, or Error when there are no answers.
 
     >>> from dihaptic import figures
     >>> procedure_courses(figures.read(lift_session))
@@ -728,7 +731,7 @@ def procedure_courses(data: Data, *, procedures: list[str] | None = None) -> pd.
 
 
 def _reversals(levels: pd.Series, procedure: _Procedure) -> list[int]:
-    """Places of the answers after which a staircase changed its direction, without the first ones, which are ignored."""
+    """Indices of the answers after which a staircase changed its direction, without the first ones, which are ignored."""
     out: list[int] = []
     way = 0
     if procedure.kind != "staircase":
@@ -743,7 +746,7 @@ def _reversals(levels: pd.Series, procedure: _Procedure) -> list[int]:
 
 
 def _mean_course(answers: pd.DataFrame, logarithmic: bool) -> Iterator[dict[str, Any]]:
-    """The mean level of all people at each answer, up to the last one that all gave."""
+    """The mean level of all people at each answer, up to the last answer that all of them gave."""
     keys = sitting_columns(answers)
     last = answers.groupby(keys)["answer"].max().min()
     if answers.groupby(keys).ngroups < 2 or last < 3:
@@ -757,7 +760,7 @@ def _mean_course(answers: pd.DataFrame, logarithmic: bool) -> Iterator[dict[str,
 def draw_procedure_courses(points: pd.DataFrame, *, size: str = "one column", height_mm: float = 45) -> Figure:
     """Draws procedure_courses(): a panel for each procedure. For one person, yes is filled, no is hollow, reversals are ringed.
 
-    `height_mm` is that of a row of panels.
+    `height_mm` is the height of a row of panels.
 
     >>> import pandas as pd
     >>> row = {"procedure": "up", "kind": "staircase", "quantity": "width", "unit": "mm", "logarithmic": False, "yes": "wider"}
@@ -784,7 +787,7 @@ def draw_procedure_courses(points: pd.DataFrame, *, size: str = "one column", he
 
 
 def _course(axes: Axes, own: pd.DataFrame, i: int, several: bool) -> None:
-    """The courses of one group's people, or of one person."""
+    """Draws the courses of one group's people, or of one person."""
     hue = COLOURS[i % len(COLOURS)]
     answers = own[own["of"] == "answer"]
     for _, each in answers.groupby("person", sort=False):
@@ -829,7 +832,7 @@ def _legend_of_courses(points: pd.DataFrame, groups: list[str], several: bool) -
     return [handle for _, handle in out], [name for name, _ in out]
 
 
-# Answers in two words, without a procedure
+# Binary answers without a procedure
 
 _SHARE = ["series", "of", "person", "n", "x", "value", "low", "high"]
 _SIDES = {-1: "left", 1: "right"}
@@ -839,14 +842,14 @@ _SIDES = {-1: "left", 1: "right"}
 def answers_by_level(
     data: Data, *, x: str, answer: str, other: str, series: list[str] | None = None, side: str = ""
 ) -> pd.DataFrame:
-    """The share of one of two outcomes at each level of a numeric column, of trials without a procedure.
+    """The share of one of two outcomes at each level of a numeric column, in trials without a procedure.
 
-    `x`, and the columns `series`, whose levels are distinguished, are columns of trials.csv; `answer` is the outcome whose
-    share `value` is, out of n trials that had it or `other`. `side`: a column that says on which side the comparison was
-    (left or -1, right or 1); then `answer` and `other` are the outcomes that name the left and the right side, and the
-    share is that of answers that name the comparison. A row is `of` "person", with Wilson's 95 % interval if there is but
-    one person; or "mean" over n people, with its 95 % interval (Student's t). Practice, catch trials and all but the last
-    attempt at a trial are left out. Raises NotThere, or Error when there are no such outcomes.
+    `x`, and the columns `series`, whose levels are distinguished, are columns of trials.csv; `answer` is the outcome
+    whose share `value` is, out of n trials that had it or `other`. `side` is a column that tells on which side the
+    comparison was (left or -1, right or 1); `answer` and `other` are then the outcomes that name the left and the right
+    side, and the share is that of answers that name the comparison. A row is `of` "person", with Wilson's 95 % interval
+    if there is only one person; or "mean" over n people, with its 95 % interval (Student's t). Practice, catch trials
+    and all but the last attempt at a trial are left out. Raises NotThere, or Error when there are no such outcomes.
 
     >>> from dihaptic import figures
     >>> points = answers_by_level(figures.read(lift_session), x="trial_num", answer="done", other="dropped")
@@ -888,7 +891,7 @@ def _side(value: Any) -> str:
 
 
 def _name_of(values: tuple[Any, ...], columns: list[str], units: dict[str, str]) -> str:
-    """ "both, trembling": a level of each column; numbers with the column's name, as they say nothing by themselves."""
+    """ "both, trembling": a level of each column; a number has the column's name, since alone it would say nothing."""
     words = []
     for column, value in zip(columns, values):
         if column == "perturbation" and not isinstance(value, str):
@@ -910,7 +913,7 @@ def _series(own: pd.DataFrame, columns: list[str], data: Data) -> list[str]:
 
 
 def _order_of_series(own: pd.DataFrame, columns: list[str], data: Data) -> list[str]:
-    """Names of series, in the order of the levels of their columns; without a perturbation first."""
+    """Names of series, in the order of the levels of their columns; series without a perturbation come first."""
     if not columns:
         return [""]
     units = data.table("trials").attrs.get("units", {})
@@ -924,7 +927,7 @@ def _order_of_series(own: pd.DataFrame, columns: list[str], data: Data) -> list[
 def draw_answers(
     points: pd.DataFrame, *, xlabel: str, ylabel: str, title: str = "", size: str = "one column", height_mm: float = 65,
 ) -> Figure:  # fmt: skip
-    """Draws answers_by_level(): shares over levels, a colour for each series.
+    """Draws answers_by_level(): shares against levels, with a colour for each series.
 
     `xlabel`, `ylabel`: labels of the axes; `title`: that of the legend.
 
@@ -958,7 +961,7 @@ def draw_answers(
 
 
 def _shares_of_series(axes: Axes, own: pd.DataFrame, aside: float, i: int) -> None:
-    """Dots of people, and means with intervals; of one person, shares with intervals."""
+    """Draws people as dots, and means with intervals; for one person, shares with intervals."""
     hue, marker = COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]
     people = own[own["of"] == "person"]
     mean = own[own["of"] == "mean"]
@@ -967,7 +970,7 @@ def _shares_of_series(axes: Axes, own: pd.DataFrame, aside: float, i: int) -> No
             each = each.sort_values("x")
             axes.plot(each["x"] + aside, each["value"], color=hue, alpha=0.3, linewidth=0.4, marker=".", markersize=3, zorder=1)
     shown = (mean if len(mean) else people).sort_values("x")
-    # a share is between 0 and 1, whatever Student's distribution says
+    # a share lies between 0 and 1, whatever Student's distribution suggests
     low, high = shown["low"].clip(lower=0), shown["high"].clip(upper=1)
     errors = [(shown["value"] - low).fillna(0).clip(lower=0), (high - shown["value"]).fillna(0).clip(lower=0)]
     axes.errorbar(
@@ -980,7 +983,7 @@ def _shares_of_series(axes: Axes, own: pd.DataFrame, aside: float, i: int) -> No
 
 
 def plans(data: Data) -> Iterator[Plan]:
-    """Figures of the task's procedures; or, without one, of answers in two words by a numeric factor."""
+    """Figures of the task's procedures or, if it has none, of binary answers by a numeric factor."""
     procedures = [each for each in _procedures(data) if len(_answers(data, each))]
     if procedures:
         yield from _plans_of_functions(data, procedures)
@@ -990,7 +993,7 @@ def plans(data: Data) -> Iterator[Plan]:
 
 
 def _parted(name: str, procedures: list[_Procedure]) -> Iterator[tuple[str, list[_Procedure]]]:
-    """Names of figures, with the procedures of each: as many as there is room for."""
+    """Names of figures, with the procedures of each: as many as fit."""
     figures = -(-len(procedures) // _MOST_PANELS)
     each = -(-len(procedures) // max(1, figures))  # about as many in each
     for first in range(0, len(procedures), max(1, each)):
@@ -999,14 +1002,14 @@ def _parted(name: str, procedures: list[_Procedure]) -> Iterator[tuple[str, list
 
 
 def _count(data: Data, procedures: list[_Procedure]) -> str:
-    """How many people gave how many answers."""
+    """The numbers of people and of their answers."""
     answers = [_answers(data, each) for each in procedures if each.kind != _ALL] or [_answers(data, each) for each in procedures]
     people = len({person for own in answers for person in own["person"]})
     return f"{counted(people, 'person', 'people')}, {counted(sum(map(len, answers)), 'answer')}"
 
 
 def _outside(data: Data, procedures: list[_Procedure]) -> str:
-    """A sentence on thresholds that are not drawn."""
+    """A sentence about thresholds that are not drawn."""
     outside = sum(int(fits["outside"].sum()) for fits in (_fits(data, each) for each in procedures))
     if not outside:
         return ""
@@ -1035,7 +1038,7 @@ def _plans_of_functions(data: Data, procedures: list[_Procedure]) -> Iterator[Pl
 
 
 def _what_of_several(data: Data, procedures: list[_Procedure]) -> str:
-    """What the psychometric functions of several people show."""
+    """The caption for psychometric functions of several people."""
     out = "Thin curves are the functions fitted to each person's answers (maximum likelihood), over the levels that the person "
     out += "was shown; dots are their thresholds"
     counts = _people_inside(data, procedures)
@@ -1053,7 +1056,7 @@ def _people_inside(data: Data, procedures: list[_Procedure]) -> pd.Series:
 
 
 def _what_of_one(data: Data, procedures: list[_Procedure]) -> str:
-    """What one person's psychometric functions show."""
+    """The caption for one person's psychometric functions."""
     out = "The share of answers at each level; the area of a circle grows with their number"
     if _has_intervals(data, procedures):
         out += f", and a line is Wilson's 95 % interval from {_LEAST_ANSWERS} answers on"
@@ -1124,13 +1127,13 @@ def _plans_of_courses(data: Data, procedures: list[_Procedure]) -> Iterator[Plan
 
 
 def _meaning(procedures: list[_Procedure]) -> str:
-    """What yes is, where it is the same everywhere."""
+    """The meaning of yes, if it is the same in all procedures."""
     words = {each.yes for each in procedures}
     return f' ("{words.pop()}")' if len(words) == 1 else ""
 
 
 def plan_of_answers(data: Data) -> Iterator[Plan]:
-    """The figure of answers in two words by a numeric factor, of trials without a procedure."""
+    """The figure of binary answers by a numeric factor, for trials without a procedure."""
     trials = counting_trials(data)
     if "outcome" not in trials or "condition" not in trials:
         return
@@ -1162,7 +1165,7 @@ def plan_of_answers(data: Data) -> Iterator[Plan]:
 
 
 def _caption_of_answers(counting: pd.DataFrame, x: str, rest: int, averaged: list[str], side: str) -> str:
-    """What the figure of answers shows: of these trials, and without the rest."""
+    """The caption of the figure of answers: what it shows of these trials, and what is left out."""
     people = counting["person"].nunique()
     out = "Shares of trials with Wilson's 95 % intervals."
     if people > 1:
@@ -1197,7 +1200,7 @@ def _not_counted(task: dict[str, Any]) -> set[str]:
 
 
 def _two_outcomes(data: Data, trials: pd.DataFrame) -> list[str]:
-    """The two frequent outcomes, if there are exactly two; first the comparison, or that which the task names first."""
+    """The two frequent outcomes, if there are exactly two: first the comparison, or else the one that the task names first."""
     shares = trials["outcome"].value_counts(normalize=True)
     frequent = [str(name) for name in shares.index if shares[name] >= _FREQUENT]
     if len(frequent) != 2:
@@ -1208,7 +1211,7 @@ def _two_outcomes(data: Data, trials: pd.DataFrame) -> list[str]:
 
 
 def _side_column(trials: pd.DataFrame, outcomes: list[str]) -> str:
-    """The column that says on which side the comparison was, where answers name a side."""
+    """The column that tells on which side the comparison was, if answers name a side."""
     named = [{"left", "right"} & set(name.split()) for name in outcomes]
     if len(named[0]) != 1 or len(named[1]) != 1 or named[0] == named[1] or "side" not in trials:
         return ""
@@ -1217,7 +1220,7 @@ def _side_column(trials: pd.DataFrame, outcomes: list[str]) -> str:
 
 
 def _series_of(data: Data, trials: pd.DataFrame, x: str) -> tuple[list[str], list[str]]:
-    """Columns whose levels have their own colours, and the factors, in words, over which shares are averaged."""
+    """Columns whose levels have colours of their own, and the factors, in words, over which shares are averaged."""
     rest = sorted((name for name in data.factors if name != x), key=lambda name: int(trials[name].nunique()))
     candidates = [name for name in rest if trials[name].nunique() > 1]
     if "perturbation" in trials and trials["perturbation"].fillna("").nunique() > 1:

@@ -1,4 +1,4 @@
-"""How the sessions went, which should be checked first: outcomes, repeated and missing trials, durations, forces, late ticks."""
+"""The quality of the sessions, to be checked first: outcomes, repeated and missing trials, durations, forces, late ticks."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .words import counted, level, words_of
 
 #: Heading above these figures in a report.
 HEADING = "Quality of the data"
-#: Maximum numbers of outcomes with colours, and of rows in a panel; one of each is for the rest.
+#: Maximum numbers of outcomes with colours, and of rows in a panel; one of each is reserved for the rest.
 _MOST_OUTCOMES = 7
 _MOST_BLOCKS = 14
 _MOST_REASONS = 6
@@ -30,14 +30,14 @@ _HATCHES = ["", "////", "....", "\\\\\\\\", "xxxx", "----", "++++"]
 #: Names for the rest.
 _OTHER = "other outcomes"
 _REST = "other reasons"
-#: Events of the kind "limit" (events.csv) in which a device gave less force than was asked for.
+#: Events of the kind "limit" (events.csv) in which a device gave less force than was requested.
 _OF_FORCE = [
     "a force or a torque was cut to the largest allowed",
     "a force or a torque was kept from changing faster than allowed",
     "more than a device's peak force or torque was requested",
     "a force or a torque was cut to a level that the device's motors can sustain",
 ]
-#: Limits after which force is off, in events.csv.
+#: Limits in events.csv after which force is off.
 _OF_FAULTS = [
     "the simulation diverged: a force or a position was not a number",
     "force was off, after a fault",
@@ -50,7 +50,7 @@ _ROW_MM = 4.2  #: height of a row of a panel
 
 
 def _attempts(data: Data) -> pd.DataFrame:
-    """All attempts, each with its number among those at its trial, and whether it is the last one, which is used."""
+    """All attempts, each with its number among the attempts at its trial, and whether it is the last one, which is used."""
     trials = data.table("trials").reset_index(drop=True)
     keys = [key for key in ("person", "seed", "session", "study_session", "session_num", "trial_num") if key in trials]
     if "block" not in trials:
@@ -76,11 +76,11 @@ def _blocks(data: Data, trials: pd.DataFrame) -> list[str]:
 def trial_outcomes(data: Data) -> pd.DataFrame:
     """How attempts at trials ended, which of them were repeated, and which trials were not measured, and why.
 
-    A row is n `of` total, a `share` of it: "block": the outcomes of the last attempts at each trial, in
-    each block; "person": the outcomes of each person's first attempts; "mean": the mean of these shares over n people;
-    "repeated": the attempts that were repeated, by outcome, of all attempts; "not measured": trials that lack a measure,
-    by `reason`, of all trials, with the `measures`. A measure that no trial of the same block, kind, condition and
-    perturbation has is not expected there, and not counted, unless no trial at all has it.
+    A row has n of a total, and the `share`; `of` is "block", for the outcomes of the last attempts at each trial, in
+    each block; "person", for the outcomes of each person's first attempts; "mean", for the mean of these shares over n
+    people; "repeated", for the attempts that were repeated, by outcome, among all attempts; or "not measured", for
+    trials that lack a measure, by `reason`, among all trials, with the `measures`. A measure that no trial of the same
+    block, kind, condition and perturbation has is not expected there, and not counted, unless no trial at all has it.
 
     >>> from dihaptic import figures
     >>> figures.trial_outcomes(figures.read(lift_session))[["of", "block", "outcome", "n", "share"]].values.tolist()
@@ -117,8 +117,10 @@ def _shares(trials: pd.DataFrame, by: str, order: list[str]) -> pd.DataFrame:
 
 
 def missing_values(trials: pd.DataFrame) -> pd.DataFrame:
-    """What trials lack that trials like them have: a row for each `trial` (its index), `measure` and `reason`, in which a
-    number that differs is "..."."""
+    """Measures that trials lack although similar trials have them: a row for each `trial` (its index), `measure` and `reason`.
+
+    In a reason, numbers that differ are replaced with "...".
+    """
     if "not_measured" not in trials or trials["not_measured"].notna().sum() == 0:
         return pd.DataFrame(columns=["trial", "measure", "reason"])
     words = trials["not_measured"].dropna().astype(str).str.split("; ").explode()
@@ -145,7 +147,7 @@ def _not_measured(trials: pd.DataFrame) -> pd.DataFrame:
 
 
 def _alike(reasons: pd.Series) -> pd.Series:
-    """Reasons that differ only in a number, as one: "the movement covered ... % of the way"."""
+    """Reasons that differ only in a number, combined into one: "the movement covered ... % of the way"."""
     number = re.compile(r"\d+(?:\.\d+)?")
     pattern = reasons.str.replace(number, "\0", regex=True)
     found = reasons.map(number.findall)
@@ -161,10 +163,11 @@ def _alike(reasons: pd.Series) -> pd.Series:
 def draw_trial_outcomes(
     points: pd.DataFrame, *, outcomes: list[str] | None = None, size: str = "two columns", height_mm: float = 0
 ) -> Figure:
-    """Draws trial_outcomes(): stacked bars of outcomes by block, and, if there are any, people, repetitions, missing measures.
+    """Draws trial_outcomes(): stacked bars of outcomes by block and, if there are any, people, repetitions, missing
+    measures.
 
-    `outcomes` names those that get a colour of their own, in this order; the default are the seven most frequent. Others
-    share one. `height_mm` 0: as high as its rows need. Raises Error without points.
+    `outcomes` names those that get a colour of their own, in this order; by default, these are the seven most frequent.
+    Others share one. With `height_mm` 0, the figure is as high as its rows need. Raises Error without points.
     """
     if points.empty:
         raise error("there is no trial to draw", "Draw a table of trial_outcomes() with rows.")
@@ -200,7 +203,7 @@ def draw_trial_outcomes(
 
 
 def _columns(parts: list[str], names: list[str], size: str) -> int:
-    """How many panels stand side by side: three of them only where all names of rows are short."""
+    """The number of panels side by side, which is three only if all names of rows are short."""
     if size != "two columns":
         return 1
     short = "not measured" not in parts and max(len(name) for name in names) <= 14
@@ -218,14 +221,14 @@ def _title(part: str, own: pd.DataFrame) -> str:
 
 
 def _most_frequent(points: pd.DataFrame) -> list[str]:
-    """The most frequent outcomes, among those of last attempts and of repeated ones."""
+    """The most frequent outcomes of last attempts and of repeated ones."""
     own = points[points["of"].isin(["block", "repeated"])]
     names = own.groupby("outcome", sort=False)["n"].sum().sort_values(ascending=False, kind="stable").index
     return list(names) if len(names) <= _MOST_OUTCOMES else list(names[: _MOST_OUTCOMES - 1])
 
 
 def _rows_of(points: pd.DataFrame, part: str, names: list[str]) -> int:
-    """The lines of type that a panel's rows take."""
+    """The number of lines of text that a panel's rows take."""
     own = points[points["of"] == part]
     if part == "block":
         return min(int(own["block"].nunique()), _MOST_BLOCKS + 1)
@@ -237,7 +240,7 @@ def _rows_of(points: pd.DataFrame, part: str, names: list[str]) -> int:
 
 
 def _bars_of_blocks(axes: Axes, own: pd.DataFrame, looks: dict[str, tuple[str, str, str]], letters: int) -> None:
-    """Stacked bars of shares, with the number of trials at their ends; blocks beyond the maximum are one."""
+    """Draws stacked bars of shares, with the number of trials at their ends; blocks beyond the maximum are combined into one."""
     blocks = list(dict.fromkeys(own["block"]))
     if len(blocks) > _MOST_BLOCKS:
         rest = f"{len(blocks) - _MOST_BLOCKS} further blocks"
@@ -260,7 +263,7 @@ def _bars_of_blocks(axes: Axes, own: pd.DataFrame, looks: dict[str, tuple[str, s
 
 
 def _dots_of_people(axes: Axes, points: pd.DataFrame, looks: dict[str, tuple[str, str, str]], letters: int) -> None:
-    """A dot for each person's share of first attempts with each outcome, and the mean over people as a line."""
+    """Draws a dot for each person's share of first attempts with each outcome, and a line for the mean over people."""
     own = points[points["of"] == "person"]
     people = list(dict.fromkeys(own["person"]))
     shares = own.pivot_table(index="person", columns="outcome", values="share", aggfunc="sum", fill_value=0.0)
@@ -278,7 +281,7 @@ def _dots_of_people(axes: Axes, points: pd.DataFrame, looks: dict[str, tuple[str
 
 
 def _bars_of_numbers(axes: Axes, own: pd.DataFrame, part: str, letters: int, looks: dict[str, tuple[str, str, str]]) -> None:
-    """Numbers of attempts that were repeated, or of trials that lack a measure."""
+    """Draws the numbers of attempts that were repeated, or of trials that lack a measure."""
     if part == "repeated":
         numbers = own.groupby("outcome", sort=False)["n"].sum()
         names, hues = [_short(level(name), letters) for name in numbers.index], [looks[name][0] for name in numbers.index]
@@ -289,7 +292,7 @@ def _bars_of_numbers(axes: Axes, own: pd.DataFrame, part: str, letters: int, loo
         numbers, rest = shown["n"].reset_index(drop=True), own[len(shown) :]
         names = [_reason(reason, measures, letters) for reason, measures in zip(shown["reason"], shown["measures"])]
         if len(rest):
-            # a trial may have several reasons, so the number of trials with any of the rest is not known
+            # a trial may have several reasons, so the number of trials with at least one of the rest is not known
             numbers, names = pd.concat([numbers, pd.Series([rest["n"].max()])]), [*names, f"{_REST} ({len(rest)}), at least"]
         hues, hatches = [QUIET] * len(numbers), [""] * len(numbers)
     for i, (number, hue, hatch) in enumerate(zip(numbers, hues, hatches)):
@@ -309,7 +312,7 @@ def _reason(reason: str, measures: str, letters: int) -> str:
 
 
 def _short(text: str, letters: int) -> str:
-    """A name on one line, cut after so many letters."""
+    """A name on one line, cut after this many letters."""
     return text if len(text) <= letters else text[: letters - 1].rstrip() + "…"
 
 
@@ -326,12 +329,13 @@ def _name_rows(axes: Axes, names: list[str]) -> None:
 
 @of_data
 def timing_and_force(data: Data) -> pd.DataFrame:
-    """How long attempts took, how large forces were, and how many ticks of each person's were late or inexact.
+    """The durations of attempts, the sizes of forces, and the numbers of each person's ticks that were late or inexact.
 
-    A row with `of` "duration_s" or "peak_force_N" has the median, the quartiles, and the extremes of n attempts in a block,
-    of a person, or of all ("" as person). A row `of` "largest_force_N" has as median what the weakest device can give. A row
-    `of` "ticks" has the person's number of `ticks`, of those in which the contact solver `missed` its tolerance, of `late`
-    ticks (empty without a real clock), of events in which force was `limited`, and of `faults` (empty without events.csv).
+    A row with `of` "duration_s" or "peak_force_N" has the median, the quartiles, and the extremes of n attempts in a
+    block, of a person, or of all ("" as person). A row `of` "largest_force_N" has, as median, the largest force that
+    the weakest device can give. A row `of` "ticks" has the person's number of `ticks`, of those in which the contact
+    solver `missed` its tolerance, of `late` ticks (empty without a real clock), of events in which force was `limited`,
+    and of `faults` (empty without events.csv).
 
     >>> from dihaptic import figures
     >>> points = figures.timing_and_force(figures.read(lift_session))
@@ -365,7 +369,7 @@ def _spread(groups: Any, of: str) -> pd.DataFrame:
 
 
 def _ticks(data: Data) -> pd.DataFrame:
-    """Ticks of each person: how many, how many missed, and how many late ones; limits of force and faults."""
+    """Each person's ticks, how many missed and how many were late, and the numbers of force limits and faults."""
     rows = []
     for sitting in data.sittings:
         session, info = sitting.session, sitting.session.info
@@ -389,8 +393,8 @@ def _ticks(data: Data) -> pd.DataFrame:
 def draw_timing_and_force(points: pd.DataFrame, *, size: str = "two columns", height_mm: float = 0) -> Figure:
     """Draws timing_and_force(): boxes of durations and peak forces by block, and a table of ticks by person.
 
-    A box has the median and the quartiles of all attempts, and its whiskers the extremes; dots are people's medians.
-    `height_mm` 0: as high as its rows need. Raises Error without points.
+    A box shows the median and the quartiles of all attempts, and its whiskers show the extremes; dots are people's medians.
+    With `height_mm` 0, the figure is as high as its rows need. Raises Error without points.
     """
     parts = [part for part in ("duration_s", "peak_force_N", "ticks") if (points["of"] == part).any()]
     if not parts:
@@ -431,7 +435,7 @@ def _name_boxes(axes: Axes, part: str, largest: float) -> None:
 
 
 def _boxes(axes: Axes, own: pd.DataFrame, blocks: list[str], letters: int) -> None:
-    """A box for each block, with a dot for each person's median; names of blocks have at most so many letters."""
+    """Draws a box for each block, with a dot for each person's median; names of blocks have at most this many letters."""
     own = own.assign(person=own["person"].fillna(""))  # a CSV file has NaN for an empty name
     for i, block in enumerate(blocks):
         whole = own[(own["block"] == block) & (own["person"] == "")]
@@ -446,7 +450,7 @@ def _boxes(axes: Axes, own: pd.DataFrame, blocks: list[str], letters: int) -> No
 
 
 def _table_of_ticks(axes: Axes, own: pd.DataFrame) -> None:
-    """Numbers of each person; of many, those with the most missed and late ticks, and the sum of the others."""
+    """Draws a table with each person's numbers; of many people, those with the most faults, and the sum over the others."""
     heads = [name for name in _HEADS if own[name].notna().any()]
     if len(own) > _MOST_PEOPLE + 1:
         bad = own[["missed", "late", "limited", "faults"]].fillna(0).sum(axis=1)
@@ -480,7 +484,7 @@ def _thin(number: int) -> str:
 
 
 def plans(data: Data) -> Iterator[Plan]:
-    """Outcomes of the trials of a task, and the timing and the forces of any session that has trials."""
+    """Outcomes of a task's trials, and the timing and forces of any session that has trials."""
     trials = data.table("trials") if data.has("trials") else pd.DataFrame()
     if trials.empty or not {"outcome", "trial_num", "start_time", "stop_time"} <= set(trials):
         return
@@ -520,7 +524,7 @@ def _plan_of_outcomes(data: Data, people: str) -> Plan:
 def _plan_of_timing(data: Data, people: str) -> Plan:
     points = timing_and_force(data)
     text = [f"{people}, {counted(len(data.table('trials')), 'attempt')}, repeated ones included."]
-    text.append("Boxes have the median and the quartiles of attempts, whiskers reach to the shortest and longest")
+    text.append("Boxes show the median and the quartiles of attempts, whiskers reach to the shortest and longest")
     text[-1] += (", and to the smallest and largest force." if (points["of"] == "peak_force_N").any() else ".")
     if len(data.people) > 1:
         text.append("Dots are people's medians.")

@@ -26,7 +26,7 @@ FORMATS = ("svg", "pdf", "png")
 
 @dataclass(frozen=True)
 class Plan:
-    """A figure that is to be drawn: which table of points, and how it is drawn.
+    """A figure to be drawn: the function that makes its table of points, and the function that draws it.
 
     `points` is called with the Data and its options, and gives a table with a row for each point; `drawing` is called
     with that table and its own options, and gives matplotlib's Figure.
@@ -40,8 +40,8 @@ class Plan:
     """
 
     name: str  #: name of its files, e.g. "peak-grip-by-mass"
-    title: str  #: what it shows, in a few words
-    caption: str  #: a sentence or two: what is drawn, n of people and of trials
+    title: str  #: the content, in a few words
+    caption: str  #: a sentence or two: what is drawn, and the numbers of people and of trials
     points: Callable[..., pd.DataFrame]
     points_options: dict[str, Any] = field(default_factory=dict)
     drawing: Callable[..., Figure] = Figure
@@ -54,7 +54,7 @@ class Plan:
         return points, self.drawing(points, **self.drawing_options)
 
     def script(self, data: Data, folder: Path) -> str:
-        """The Python script that draws this figure anew, to be kept in `folder`."""
+        """The Python script that draws this figure anew from `folder`."""
         caption = textwrap.fill(self.caption, 120)
         text = f'''"""{self.title}: draws {self.name}.svg, .pdf and .png, and writes {self.name}.csv.
 
@@ -87,18 +87,18 @@ def signed(text: str) -> str:
 
 
 def is_changed(script: Path) -> bool:
-    """Whether there is a script that Plan.script() made, and somebody has changed it."""
+    """Whether the script exists, was made by Plan.script(), and has been changed by somebody."""
     if script.is_symlink():
         return True  # this package makes no links
     if not script.is_file():
         return False
     lines = script.read_text(encoding="utf-8", errors="replace").splitlines(keepends=True)
-    # another version may have written the words behind the checksum
+    # the words after the checksum may come from another version
     return not lines or lines[-1].split(":")[0] != signed("".join(lines[:-1])).split(":")[0]
 
 
 def _reading(data: Data, folder: Path) -> str:
-    """The call that reads these data, as it is written in a script that is kept in `folder`."""
+    """The call that reads these data, as written in a script that is in `folder`."""
     paths = []
     for path in data.paths:
         near = folder.is_relative_to(data.folder)
@@ -110,7 +110,7 @@ def _reading(data: Data, folder: Path) -> str:
 
 
 def _call(function: Callable[..., Any], first: str, options: dict[str, Any]) -> str:
-    """The call of one of this package's functions, as it is written in a script."""
+    """The call of one of this package's functions, as written in a script."""
     lines = "".join(f"    {key}={value!r},\n" for key, value in options.items())
     name = f"figures.{function.__name__}"
     return f"{name}(\n    {first},\n{lines})" if lines else f"{name}({first})"
@@ -135,7 +135,7 @@ def save(figure: Figure, file: str | Path, points: pd.DataFrame | None = None) -
     kinds: tuple[str, ...] = FORMATS
     if base.suffix[1:] in FORMATS:
         base, kinds = base.with_suffix(""), (base.suffix[1:],)
-    # neither the date nor the version of a library is in a file
+    # keeps the date and the versions of libraries out of the files
     metadata: dict[str, dict[str, Any]] = {
         "svg": {"Date": None, "Creator": None},
         "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
@@ -163,7 +163,7 @@ def save(figure: Figure, file: str | Path, points: pd.DataFrame | None = None) -
 
 
 def _tell(told: list[warnings.WarningMessage], name: str) -> None:
-    """Warns of letters that no font has, each once, and passes on other warnings."""
+    """Warns once of each letter that no font has, and passes on other warnings."""
     missing: dict[str, None] = {}
     for each in told:
         if found := re.search(r"Glyph (\d+) .*missing", str(each.message)):
@@ -183,7 +183,7 @@ def _with_steady_names(svg: bytes) -> bytes:
 
 
 def write(file: Path, content: bytes) -> Path:
-    """Writes a file, and makes its folder. A link of this name is replaced, and its target stays as it is.
+    """Writes a file, after making its folder. A link with this name is replaced, and its target is left unchanged.
     Raises Error."""
     try:
         file.parent.mkdir(parents=True, exist_ok=True)

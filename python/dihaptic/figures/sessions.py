@@ -22,7 +22,8 @@ Paths = Union[str, Path, Sequence[Union[str, Path]]]  # in a form that Python 3.
 
 @dataclass(frozen=True)
 class Sample:
-    """People who may be averaged: of one experiment, and all moved by a person, a script, or one population's people.
+    """Sessions that may be averaged: those of one experiment, in which a person, a script, or one population's people moved
+    the hand.
 
     >>> from dihaptic import figures
     >>> figures.samples_in(lift_session)
@@ -39,7 +40,7 @@ class Sample:
         return self.moved_by not in ("devices", "mouse", "")
 
     def is_among(self, wanted: Sample) -> bool:
-        """Whether it has all that is wanted; None stands for any value."""
+        """Whether it has the values that are wanted, of which None stands for any."""
         pairs = zip(asdict(self).values(), asdict(wanted).values())
         return all(want is None or have == want for have, want in pairs)
 
@@ -51,14 +52,16 @@ class Sample:
 
 
 def samples_in(path: Paths) -> list[Sample]:
-    """The samples that the sessions at a path belong to, in the order of their titles. Of several paths, which are compared,
-    these are the experiments. Raises Error."""
+    """The samples that the sessions at a path belong to, in the order of their titles.
+
+    If several paths are compared, these are the experiments. Raises Error.
+    """
     return Sittings(path).samples
 
 
 #: Some columns of tables that are not in docs/tables.md.
 _OTHER_COLUMNS = {"settings": {"setting"}, "procedures": {"procedure"}, "trial-list": {"trial_num"}}
-#: Columns of these tables, and of tables of points: a factor or measure of such a name is renamed.
+#: Columns of these tables, and of tables of points; a factor or measure with such a name is renamed.
 _OWN = {
     "person", "group", "session", "study_session", "study_condition", "measure", "of", "n", "value", "low", "high", "part", "all",
     "first", "last", "window", "phase", "number",
@@ -66,7 +69,7 @@ _OWN = {
 
 
 def renamed(column: str) -> str:
-    """The name of a table's column here: a factor that is called "session" is not the session.
+    """The name of a table's column here, which differs because a factor that is called "session" is not the session.
 
     >>> renamed("session"), renamed("mass_g")
     ('session (column)', 'mass_g')
@@ -86,7 +89,7 @@ def _checked(session: Session, name: str) -> pd.DataFrame:
 
 
 def _check_numbers(table: pd.DataFrame, file: Path) -> None:
-    """Makes numbers of the columns with units. "NA" and "nan", as R and numpy save them, are empty cells. Raises Error."""
+    """Converts the columns with units to numbers. "NA" and "nan", as R and numpy save them, are empty cells. Raises Error."""
     for column in table.attrs.get("units", {}):
         if table[column].dtype != object or table[column].isna().all():
             continue
@@ -94,7 +97,7 @@ def _check_numbers(table: pd.DataFrame, file: Path) -> None:
         wrong = (numbers.isna() & table[column].notna() & ~table[column].isin(["NA", "nan", "NaN"])).to_numpy()
         if not wrong.any():
             table[column] = numbers
-        elif numbers.notna().any():  # a column of words that is named like one of numbers is kept
+        elif numbers.notna().any():  # a column of words keeps them, even if its name ends in a unit
             line = int(wrong.argmax()) + 2  # after the header
             what = f"is '{table[column].iloc[line - 2]}', which is not a number"
             raise error(what, "Correct this line, or restore the table.", file=str(file), line=line, key=str(column))
@@ -109,8 +112,8 @@ class Sitting:
     group: str
     study_session: str = ""
     study_condition: str = ""
-    name: str = ""  #: name of the session; no other of these sessions has it
-    of: str = ""  #: which of several paths it was found at
+    name: str = ""  #: name of the session, which no other of these sessions has
+    of: str = ""  #: the path at which it was found, if there are several
 
     @property
     def _mover(self) -> dict[str, Any]:
@@ -134,7 +137,7 @@ class Sitting:
         return str(self.sample.population or "")
 
     def table(self, name: str) -> pd.DataFrame:
-        """A table of the session, with columns in front that say whose it is. Raises Error."""
+        """A table of the session, preceded by columns that tell whose it is. Raises Error."""
         table = _checked(self.session, name)
         attrs = table.attrs
         columns = {"person": self.person, "group": self.group, "session": self.name or self.session.folder.name}
@@ -149,7 +152,7 @@ class Sitting:
 
 
 class Sittings:
-    """The sessions at a path, or at several: those that are included, and why the others are not."""
+    """The sessions at a path, or at several: those that are included, and the reasons why the others are not."""
 
     def __init__(self, path: Paths) -> None:
         each = [path] if isinstance(path, (str, Path)) else list(path)
@@ -205,7 +208,7 @@ class Sittings:
             yield Sitting(session, participant, str(row["group"]), name, condition)
 
     def _in_folder(self, folder: Path) -> Iterator[Sitting]:
-        """Sessions at any depth, by the rules by which `dihaptic report` counts them."""
+        """Finds sessions at any depth, by the rules of `dihaptic report`."""
         sessions = []
         for link in sorted(folder.iterdir() if folder.is_dir() else []):
             if link.is_symlink() and (link / "session.yaml").is_file():
@@ -223,7 +226,7 @@ class Sittings:
         for session in sessions:
             identity = str(session.info.get("identity") or "")
             copied = first.setdefault(identity, session.folder)
-            # on the virtual clock, a session that is run twice is identical to the bit, but not a copy
+            # on the virtual clock, two runs of a session are identical to the bit, but neither is a copy
             if copied != session.folder and identity and session.info.get("clock") == "real":
                 why_not = f"it is the same session as {copied}"
             elif session.folder.name in resumed:
@@ -239,8 +242,11 @@ class Sittings:
 
 
 def named_apart(sittings: list[Sitting]) -> list[Sitting]:
-    """The sittings with names of their own. Simulated people of one name who were drawn from several seeds have the seed in
-    their names; so have sessions parts of their paths. A person in several groups stays one."""
+    """The sittings with names of their own.
+
+    Simulated people with the same name who were drawn from different seeds have the seed in their names; likewise,
+    sessions have parts of their paths. A person in several groups counts as one person.
+    """
     names = _names_of([sitting.session.folder for sitting in sittings])
     sittings = [replace(sitting, name=name) for sitting, name in zip(sittings, names)]
     for what in ("seed", "population"):
@@ -278,8 +284,8 @@ def _stands_in(session: Session) -> bool:
 
 
 def _counts_in_study(session: Session) -> bool:
-    """Whether `dihaptic collect` takes a session that ended early, as the study's `resuming` asks for. The study's file lies
-    beside the folder sessions/PARTICIPANT/STUDY_SESSION."""
+    """Whether `dihaptic collect` includes a session that ended early, according to the study's `resuming`. The study's file
+    lies beside the folder sessions/PARTICIPANT/STUDY_SESSION."""
     place, above = session.info.get("in_study") or {}, session.folder.resolve().parents
     if not place or len(above) < 4:
         return False

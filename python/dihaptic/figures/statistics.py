@@ -23,13 +23,13 @@ from .saving import is_changed, signed, write
 _OF_LIFTS = ["peak_grip_rate_N_s", "static_grip_N", "safety_margin"]
 #: Columns that distinguish the sessions of a study.
 _OF_STUDY = ["study_session", "study_condition"]
-#: Kinds of trials that do not show a block's late compensation.
+#: Kinds of trials that do not show the late compensation of a block.
 _PROBES = ["catch", "visual_clamp"]
-#: Words of R that cannot be the name of a column in a formula.
+#: Words of R that cannot be the names of columns in a formula.
 _R_WORDS = {
     "if", "else", "repeat", "while", "function", "for", "next", "break", "in", "TRUE", "FALSE", "NULL", "Inf", "NaN", "NA",
 }  # fmt: skip
-#: Names that patsy gives a meaning of its own.
+#: Names that have a meaning of their own in patsy.
 _PATSY_WORDS = {"C", "Q", "I", "T", "center", "standardize", "Treatment", "Sum", "Diff", "Poly", "Helmert"}
 _WIDTH = 118
 #: Maximum number of parameters of an interaction.
@@ -42,9 +42,10 @@ def write_analyses(data: Data, folder: str | Path) -> list[Path]:
 
     Each is self-contained: it reads the tables that are written beside it (`analysis-trials.csv`, ...), fits a mixed
     model (REML) of each measure, and prints estimates with 95 % intervals (Wald), the numbers of people and of trials.
-    Fixed effects are the factors of the design, numbers centred, words compared with the first one; each person has an
-    intercept of their own. A second model adds the interactions of each two factors that the design crosses. For learning,
-    the measure is the late compensation, by group and by round. Returns [] for one person, or for a design without factors.
+    Fixed effects are the factors of the design, with numbers centred and words compared with the first one; each person has
+    an intercept of their own. A second model adds the interaction of every two factors that the design crosses. For
+    learning, the measure is the late compensation, by group and by round. Returns [] for one person, or for a design without
+    factors.
 
     >>> from dihaptic import figures
     >>> figures.write_analyses(figures.read(lift_session), folder)
@@ -135,7 +136,7 @@ def _of_learning(data: Data) -> _Design | None:
 
 
 def _late_blocks(table: pd.DataFrame, fits: pd.DataFrame) -> dict[str, str]:
-    """The block of each round whose last trials have the means that fits.csv gives as late; rounds without one left out."""
+    """For each round, the block whose last trials give the late mean of fits.csv; rounds without such a block are left out."""
     out = {}
     by = ["person", *_sitting(table)]
     for name, own in table[~table["kind"].isin(_PROBES) & table["compensation"].notna()].groupby("round", sort=False):
@@ -154,7 +155,7 @@ def _sitting(table: pd.DataFrame) -> list[str]:
 
 
 def _name_factors(data: Data, rows: pd.DataFrame, names: list[str], design: _Design) -> None:
-    """Notes units of the numeric factors, and the levels of the others in their order."""
+    """Notes the units of numeric factors, and the levels of the others in their order."""
     units = data.table(design.tables[0]).attrs.get("units", {})
     for name in dict.fromkeys(names):
         if name not in rows or rows[name].nunique() < 2:
@@ -173,7 +174,7 @@ def _effects(rows: pd.DataFrame, measure: str, design: _Design) -> list[str]:
     rows = rows[rows[measure].notna()]
     chosen: list[str] = []
     for name in [*design.words, *design.numbers]:
-        # a factor that few of these trials have, such as that of another session of a study, is not used for this measure
+        # a factor that few of these trials have, such as one of another session of a study, is not used for this measure
         if rows[name].notna().sum() * 2 < len(rows):
             continue
         if _is_of_full_rank(rows, [*chosen, name], design):
@@ -260,7 +261,7 @@ def _formula_name(name: str, language: str) -> str:
 
 
 def _formulas(design: _Design, measure: str, language: str) -> list[str]:
-    """The formula of a measure's factors, and one that has their interactions, too, if these can be estimated."""
+    """The formula of a measure's factors, and one that also has their interactions, if these can be estimated."""
     names = {name: _formula_name(name, language) for name in design.models[measure]}
     factors = " + ".join(names.values())
     pairs = [f"{names[first]}:{names[second]}" for first, second in design.pairs.get(measure, [])]
@@ -268,7 +269,7 @@ def _formulas(design: _Design, measure: str, language: str) -> list[str]:
 
 
 def _laid_out(head: str, items: list[str], tail: str) -> str:
-    """A list on one line if it fits, or else with an item on each line."""
+    """A list on one line if it fits there, and otherwise with an item on each line."""
     line = f"{head}{', '.join(items)}{tail}"
     if len(line) <= _WIDTH:
         return line
@@ -276,7 +277,7 @@ def _laid_out(head: str, items: list[str], tail: str) -> str:
 
 
 def _text(value: Any) -> str:
-    """A string, which Python and R write alike."""
+    """A string, in the notation that Python and R share."""
     return json.dumps(str(value), ensure_ascii=False)
 
 

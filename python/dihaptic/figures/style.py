@@ -1,4 +1,4 @@
-"""The style of all figures: sizes of a journal's columns, type, colours."""
+"""The style of all figures: the widths of a journal's columns, typefaces, colours."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from matplotlib.figure import Figure
 from ..charts import COLOURS as COLOURS  # the same colours
 from ..errors import NotThere
 
-#: The mark of each colour, so that figures can be read in black and white.
+#: The marker of each colour, so that figures can be read in black and white.
 MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
 #: Widths of a figure [mm].
 WIDTHS = {"one column": 89.0, "two columns": 183.0}
 #: Colour of what is not data: reference lines, names of blocks.
 QUIET = "#767676"
 
-#: Fonts for letters that DejaVu Sans lacks, where they are installed.
+#: Fonts for letters that DejaVu Sans lacks, used if they are installed.
 _OTHER_FONTS = [
     "Noto Sans CJK JP", "Noto Sans CJK SC", "WenQuanYi Micro Hei", "IPAexGothic", "Droid Sans Fallback", "Microsoft YaHei",
     "Yu Gothic", "Malgun Gothic", "Hiragino Sans", "PingFang SC", "Apple SD Gothic Neo", "Noto Sans Devanagari", "Noto Sans Thai",
@@ -78,7 +78,7 @@ def styled(function: _Function) -> _Function:
 
 
 def of_data(function: _Function) -> _Function:
-    """Notes in the table of points that a function makes of Data whether they are simulated, for drawing()."""
+    """Makes a function of Data note in its table of points, for drawing(), whether the data are simulated."""
 
     @wraps(function)
     def call(data: Any, *arguments: Any, **options: Any) -> Any:
@@ -109,7 +109,7 @@ def drawing(function: _Function) -> _Function:
 
 @cache
 def _families() -> list[str]:
-    """The typeface, and those installed that have the letters of other scripts: each letter is in the first that has it."""
+    """The typeface, followed by installed ones with letters of other scripts; each letter is drawn in the first that has it."""
     installed = {font.name for font in font_manager.fontManager.ttflist}
     return ["sans-serif", *(name for name in _OTHER_FONTS if name in installed)]
 
@@ -135,12 +135,12 @@ def canvas(
 
 
 def wrapped(text: str, letters: int) -> str:
-    """A label in lines of at most so many letters, as far as its words allow."""
+    """A label in lines of at most this many letters, as far as its words allow."""
     return "\n".join(textwrap.wrap(text, letters, break_long_words=False, break_on_hyphens=False))
 
 
 def fit_names(axes: Axes, width_mm: float) -> None:
-    """Writes the names below a panel of this width in lines, or upright where a word does not fit."""
+    """Writes the names below a panel of this width in several lines, or upright if a word does not fit."""
     names = [text.get_text() for text in axes.get_xticklabels()]
     # a letter of 7 points is about 1.4 mm wide; about 14 mm of a panel's width are to the left of it
     letters = int((width_mm - 14) / max(1, len(names)) / 1.5)
@@ -158,8 +158,8 @@ def same_limits(panels: list[Axes]) -> None:
 
 
 def legend_above(figure: Figure, handles: list[Any], names: list[str], title: str = "") -> None:
-    """A legend above all panels, which leave room for it; to be called when the panels are complete."""
-    # the width of a name is about 0.6 of its height for each letter; the line before it takes about 4 letters
+    """Draws a legend above all panels, and makes space for it; must be called once the panels are complete."""
+    # a letter is about 0.6 times as wide as it is high; the line before a name is about 4 letters wide
     width = figure.get_figwidth() * 72 / 7 / 0.6
     columns = max(1, min(len(names), int(width / (max(map(len, names)) + 6))))
     renderer = FigureCanvasAgg(figure).get_renderer()

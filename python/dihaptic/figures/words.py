@@ -51,7 +51,7 @@ def in_print(unit: str) -> str:
 
 
 def level(value: Any, unit: str = "") -> str:
-    """A level of a factor: "80 g" for 80 with the unit g; a word as it is."""
+    """A level of a factor: "80 g" for 80 with the unit g; a word stays as it is."""
     if isinstance(value, str):
         return value.replace("_", " ")
     if value is None or (isinstance(value, float) and math.isnan(value)):

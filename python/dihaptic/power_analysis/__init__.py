@@ -26,11 +26,11 @@ from ..rehearsing import rehearse
 if TYPE_CHECKING:
     from .result import Power
 
-#: Largest number of people of a sample.
+#: Largest number of people in a sample.
 _MOST_PEOPLE = 10_000
-#: Tables that a report makes of each session.
+#: Tables that a report makes for each session.
 _REPORTED = ["fits", "adaptation", "thresholds"]
-#: Least people of a pool, or of one of its groups, from whom samples are drawn.
+#: Smallest number of people in a pool, or in one of its groups, from which samples are drawn.
 _LEAST = 10
 
 
@@ -53,12 +53,13 @@ def power(
 ) -> Power:
     """The power of an experiment to find an effect with n people.
 
-    `path` is the experiment's file, of which a pool of `people` is rehearsed into `out`/pool (or continued there); or the
-    folder of a rehearsal, which is then the pool. `effect` is an expression over its tables (power_analysis.effect.Effect):
-    a value of each person that is compared with zero, or the difference of two groups of people. `n` are numbers of people
-    who are recruited, in each group; the second group has `ratio` times as many. The share `attrition` of them is lost
-    before the analysis. `test`: "t" or "wilcoxon" for one value of each person; "welch", "t" or "wilcoxon" (rank sum) for
-    groups; all are two-sided, at the level `alpha`. `draws` samples are made for each n. Raises Error.
+    `path` is the experiment's file, which a pool of `people` then rehearses in `out`/pool (or continues there); or the
+    folder of a rehearsal, whose people are then the pool. `effect` is an expression over its tables
+    (power_analysis.effect.Effect): a value of each person that is compared with zero, or the difference of two groups of
+    people. `n` lists the numbers of people recruited in each group; the second group has `ratio` times as many. The share
+    `attrition` of them is lost before the analysis. `test`: "t" or "wilcoxon" for one value of each person; "welch", "t" or
+    "wilcoxon" (rank sum) for groups; all are two-sided, at the level `alpha`. `draws` samples are made for each n. Raises
+    Error.
 
     >>> import dihaptic as dh
     >>> pool = dh.rehearse("experiments/first-trials.yaml", 12, out=f"{folder}/pool", progress=False)
@@ -66,7 +67,7 @@ def power(
     >>> result.table[["n", "power"]].values.tolist()
     [[6.0, 1.0], [8.0, 1.0]]
     """
-    # these need matplotlib and SciPy, and take their time to be read
+    # these need matplotlib and SciPy, and take long to import
     from .draws import test_named
     from .effect import Effect
     from .pool import read_pool
@@ -83,7 +84,7 @@ def power(
     data = read_pool(folder)
     own = {str(column) for table in data.tables if table not in _REPORTED for column in data.table(table)}
     lacking = [each for each in data.sessions if not any((each.folder / f"{table}.csv").is_file() for table in _REPORTED)]
-    if lacking and set(asked.columns) - own:  # people were added since the last report, or there was none
+    if lacking and set(asked.columns) - own:  # people have been added since the last report, or there was none
         call(["report", str(folder), "--tables"], progress=progress)
         data = read_pool(folder)
     sides = asked.sides(data)
@@ -111,7 +112,7 @@ def _check(n: Sequence[int], draws: int, alpha: float, ratio: float, attrition: 
     if not 1e-6 <= alpha <= 0.5:
         raise error("must be from 0.000001 to 0.5", "0.05 is usual.", key="alpha")
     if not 0.1 <= ratio <= 10:
-        raise error("must be from 0.1 to 10", "It is the number of people of the second group for one of the first.", key="ratio")
+        raise error("must be from 0.1 to 10", "It is the number of people in the second group for one in the first.", key="ratio")
     if not 0 <= attrition < 1:
         raise error("must be a share below 1", "Write e.g. 0.1 for a tenth.", key="attrition")
     if seed < 0:

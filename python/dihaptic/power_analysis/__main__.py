@@ -37,7 +37,7 @@ def main(words: list[str]) -> int:
         )  # fmt: skip
         page = result.save(out / _in_a_name(asked.effect))
     except KeyboardInterrupt:
-        print("interrupted: the people who are done are kept, and the same command continues", file=sys.stderr)
+        print("interrupted: the people who have finished are kept, and the same command continues", file=sys.stderr)
         return 130
     except Error as why:
         print("\n".join(problem.text() for problem in why.problems), file=sys.stderr)
@@ -55,7 +55,7 @@ def main(words: list[str]) -> int:
 
 
 def _in_a_name(effect: str) -> str:
-    """An effect as the name of a folder, so that another effect does not replace its page."""
+    """The name of the folder for an effect, which keeps another effect from replacing its page."""
     for sign, word in ((" - ", " minus "), (" + ", " plus "), (" * ", " times "), (" / ", " over ")):
         effect = effect.replace(sign, word)
     return re.sub(r"\W+", "-", effect).strip("-")[:120]

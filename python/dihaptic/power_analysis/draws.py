@@ -15,21 +15,21 @@ from ..errors import NotThere
 from ..figures.psychophysics import wilson
 
 Array = npt.NDArray[np.float64]
-#: Samples are made in portions of so many, which keeps memory small.
+#: Samples are drawn in portions of this many, which saves memory.
 _PORTION = 2000
 
 
 @dataclass(frozen=True)
 class Found:
-    """What the samples of one size gave."""
+    """The results of the samples of one size."""
 
     draws: int
     power: float  #: share of samples whose test is significant
     low: float  #: 95 % interval of the power (Wilson), from the number of samples
     high: float
     wrong_sign: float  #: type S error: share of the significant estimates that have the wrong sign; NaN: none is significant
-    exaggeration: float  #: type M error: mean of the significant estimates' sizes over the size of the effect
-    untested: float  #: share of the samples that have no test, such as one whose people are all alike: they find no effect
+    exaggeration: float  #: type M error: mean size of the significant estimates, relative to the size of the effect
+    untested: float  #: share of samples that cannot be tested, e.g. because all people are alike; they find no effect
     half_width: float  #: median half width of the test's confidence interval; NaN for ranks
 
 
@@ -59,7 +59,7 @@ BETWEEN: dict[str, Callable[[Array, Any], Array]] = {"welch": _between_welch, "t
 
 
 def test_named(name: str, between: bool) -> tuple[str, Callable[[Array, Any], Array]]:
-    """A test and its name; "": the usual one, t within people and Welch's between groups. Raises NotThere."""
+    """A test and its name; "" selects the usual one: t within people, and Welch's between groups. Raises NotThere."""
     known = BETWEEN if between else WITHIN
     name = name or next(iter(known))
     if name not in known:
@@ -73,9 +73,9 @@ def find_effect(
 ) -> Found:
     """Draws samples with replacement from a pool, and tests each of them (two-sided).
 
-    `pool` has the values of all people, or of those of two groups; `sizes` are the numbers of people in a sample, one for
-    each. `spread` multiplies the deviations of people from the mean of their group. The same seed gives the same samples, and
-    a larger sample has the people of a smaller one, and more: so curves over n are smooth.
+    `pool` has the values of all people, or of those of two groups; `sizes` are the numbers of people in a sample, one
+    for each. `spread` multiplies the deviations of people from the mean of their group. The same seed gives the same
+    samples, and a larger sample contains the people of a smaller one, so that curves over n are smooth.
     """
     pool = [values.mean() + spread * (values - values.mean()) for values in pool]
     true = pool[0].mean() - (pool[1].mean() if len(pool) == 2 else 0)
@@ -88,9 +88,9 @@ def find_effect(
             rng = np.random.default_rng([seed, side, first])
             samples.append(values[rng.integers(0, len(values), (n, some))])
         with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")  # a sample of the same person again and again has no test
+            warnings.simplefilter("ignore")  # a sample that repeats the same person cannot be tested
             some_p = p_of(samples[0], samples[1] if len(samples) == 2 else None)
-        if test != "wilcoxon":  # what scatters less than its rounding errors has no t
+        if test != "wilcoxon":  # values that scatter by less than their rounding errors have no t
             scatter, size = np.sum([s.std(0) for s in samples], 0), np.sum([np.abs(s).max(0) for s in samples], 0)
             some_p = np.where(scatter > 1e-9 * size, some_p, np.nan)
         p.append(some_p)
@@ -98,7 +98,7 @@ def find_effect(
         if test != "wilcoxon":
             halves.append(half_width(samples, test, alpha))
     all_p = np.concatenate(p)
-    is_found = all_p < alpha  # not where there is no p
+    is_found = all_p < alpha  # excludes samples without a p
     found = np.concatenate(estimates)[is_found]
     low, high = wilson(is_found.sum(), draws)
     return Found(
@@ -132,8 +132,11 @@ def half_width(samples: list[Array], test: str, alpha: float) -> Array:
 def smallest_size(
     power_at: Callable[[int], Found], wanted: float, most: int, least: int = 3
 ) -> tuple[int | None, int | None, int | None]:
-    """The smallest n at which the power is as large as wanted, and those at which the ends of its interval are: first the one
-    that may be enough (upper end), then the one that is probably enough (lower end). None: more than `most`."""
+    """The smallest n at which the power reaches the wanted value, and those at which the ends of its interval do.
+
+    Of these two, the first may be enough (upper end), and the second is probably enough (lower end). None stands for more
+    than `most`.
+    """
     return (
         _first(lambda n: power_at(n).power >= wanted, least, most),
         _first(lambda n: power_at(n).high >= wanted, least, most),
@@ -142,7 +145,7 @@ def smallest_size(
 
 
 def _first(is_enough: Callable[[int], bool], least: int, most: int) -> int | None:
-    """The smallest n from `least` on that is enough, if all larger ones are."""
+    """The smallest n, starting from `least`, that is enough, given that all larger ones are."""
     below, n = least - 1, least
     while not is_enough(n):
         if n >= most:

@@ -14,7 +14,7 @@ from ..errors import NotThere, error
 from ..figures.conditions import counting_trials
 from ..figures.data import SITTING, Data, sitting_columns
 
-#: What a term makes of the values of a person's trials.
+#: The functions by which a term summarises the values of a person's trials.
 _STATISTICS: dict[str, Callable[[pd.Series], float]] = {
     "mean": lambda values: float(values.mean()),
     "median": lambda values: float(values.median()),
@@ -33,10 +33,10 @@ class Effect:
 
     A term is `mean`, `median` or `sd` of a column of a table, over the rows that have the named values in other columns:
     `mean(static_grip_N, mass_g=200, surface="fine sandpaper")`. Terms and numbers are joined by + - * / and parentheses.
-    The column's table is the first that has it of trials, lifts, fits, thresholds, adaptation, phases and episodes; `table=`
-    names another one. Of trials and lifts, the last attempt at each trial is used, without practice and catch trials,
-    unless the term names `kind` or `attempt`. Terms of two groups make an effect between people, which is the left side
-    less the right side: `mean(late, group=a) - mean(late, group=b)`. Raises Error when it cannot be understood.
+    The column is taken from the first of these tables that has it: trials, lifts, fits, thresholds, adaptation, phases and
+    episodes; `table=` names another one. Of trials and lifts, the last attempt at each trial is used, without practice and
+    catch trials, unless the term names `kind` or `attempt`. Terms of two groups make an effect between people, which is the
+    left side minus the right side: `mean(late, group=a) - mean(late, group=b)`. Raises Error when it cannot be understood.
 
     >>> from dihaptic import figures
     >>> from dihaptic.power_analysis.effect import Effect
@@ -58,7 +58,7 @@ class Effect:
             tree = self._tree
             sides = [tree.left, tree.right] if isinstance(tree, ast.BinOp) and isinstance(tree.op, ast.Sub) else []
             if [set(self._groups_in(side)) for side in sides] != [{group} for group in self.groups]:
-                raise error("compares groups, but is not one group's value less another one's",
+                raise error("compares groups, but is not one group's value minus another group's",
                             "Write e.g. mean(late, group=a) - mean(late, group=b).", key=text)  # fmt: skip
         if len(self.groups) > 2:
             raise error(f"names {len(self.groups)} groups", "Compare two of them.", key=text)
@@ -71,7 +71,7 @@ class Effect:
 
     @property
     def is_between(self) -> bool:
-        """Whether it compares two groups of people; or else each person has a value, which is compared with zero."""
+        """Whether it compares two groups of people; otherwise, each person has a value, which is compared with zero."""
         return len(self.groups) == 2
 
     @property
@@ -82,7 +82,7 @@ class Effect:
         return is_sum and any(isinstance(side, ast.Constant) for side in (tree.left, tree.right))  # type: ignore[attr-defined]
 
     def sides(self, data: Data) -> list[pd.Series]:
-        """The known values of the people of each group; or of all people, where it does not compare groups. Raises Error."""
+        """The known values of the people in each group or, if it does not compare groups, of all people. Raises Error."""
         if not self.is_between:
             return [self._value(self._tree, data).dropna()]
         assert isinstance(self._tree, ast.BinOp)
@@ -157,14 +157,14 @@ def _term(node: ast.Call, data: Data) -> pd.Series:
     if table[column].isna().all():
         raise error(f"is empty in all of these rows of {name}", "Name a column that these trials have.", key=column)
     if not pd.api.types.is_numeric_dtype(table[column]):
-        raise error("has words, of which there is no statistic", "Name a column of numbers.", key=column)
+        raise error("contains words, which have no statistic", "Name a column of numbers.", key=column)
     known = table[table[column].notna()]
     values = known.groupby("person")[column].apply(_STATISTICS[node.func.id])
     return values.reindex(data.people).astype(float)
 
 
 def _rows(data: Data, name: str, chosen: dict[str, Any]) -> pd.DataFrame:
-    """The rows of a table that terms are about."""
+    """The rows of a table to which terms refer."""
     if not data.has(name):
         raise NotThere(name, "is not a table of these people", data.tables, f"There are {', '.join(data.tables)}.")
     if name in ("trials", "lifts") and not {"kind", "attempt"} & set(chosen):
@@ -172,7 +172,7 @@ def _rows(data: Data, name: str, chosen: dict[str, Any]) -> pd.DataFrame:
     table = data.table(name)
     if name == "trials" and "attempt" not in chosen:
         return table.drop_duplicates([*sitting_columns(table), "trial_num"], keep="last")
-    if "block" not in table and data.has("trials") and "trial_num" in table:  # what describes a trial is in trials.csv
+    if "block" not in table and data.has("trials") and "trial_num" in table:  # the description of a trial is in trials.csv
         trials = data.table("trials")
         keys = [key for key in (*SITTING, "trial_num", "attempt") if key in table and key in trials]
         design = [column for column in trials if column not in table or column in keys]

@@ -21,29 +21,29 @@ from ..reports.simulated import limits_of
 if TYPE_CHECKING:
     from .result import Power
 
-#: Measures whose means and spreads over people were compared with people's (src/person/README.md): of rotations.
+#: Measures of rotations whose means and spreads over people were compared with those of real people (src/person/README.md).
 _COMPARED = {"baseline", "early", "late", "clamp_first", "clamp_last", "compensation", "catch", "washout_first", "rebound"}
-#: The share of Cohen's d that one person may change without being named.
+#: The share by which one person may change Cohen's d without being named.
 _MOST_OF_ONE = 0.25
-#: Cohen's d above which an effect within people is larger than experiments find.
+#: Cohen's d above which an effect within people is larger than those found in experiments.
 _LARGE = 3
-#: The width of the power's interval, over pools, above which the pool is called small.
+#: The width of the power's interval over pools above which the pool is called small.
 _MOST_DOUBT = 0.2
-#: Samples of each size for the curves, whose n are about so many.
+#: Number of samples of each size for the curves, and about how many n they have.
 _CURVE = 12
-#: What no pool of this program can tell, whatever the experiment.
+#: What no pool of this program can show, whatever the experiment.
 _NOT_KNOWN = [
     "How laboratories differ. A population describes people of one laboratory; groups of real people on one schedule differ by "
     "more than their people's scatter explains (docs/manual/explanation/simulated-people.md). The power of your laboratory may "
     "lie outside every interval here.",
-    "Whether the true effect is as large as the simulated one. The intervals say what the numbers of samples and of simulated "
-    "people leave open, and nothing about the model of people.",
-    "Exclusions after the analysis was seen, and other choices that a preregistration is to prevent.",
+    "Whether the true effect is as large as the simulated one. The intervals reflect only the numbers of samples and of "
+    "simulated people, and not whether the model of people is right.",
+    "Exclusions after the analysis was seen, and other choices that a preregistration is meant to prevent.",
 ]
 
 
 def curve(result: Power) -> pd.DataFrame:
-    """The points of the figure: the power over n for each spread of people, with its interval from the number of draws."""
+    """The points of the figure: the power against n for each spread of people, with its interval due to the number of draws."""
     from .result import SPREADS, WANTED
 
     last = max(result.n)
@@ -83,7 +83,7 @@ def draw_power(points: pd.DataFrame, *, xlabel: str = "people", size: str = "one
 
 def _script(xlabel: str, mark: str) -> str:
     """The script that draws the figure anew from power.csv."""
-    text = f'''"""Power over the number of people: draws power.svg, .pdf and .png from power.csv."""
+    text = f'''"""Power against the number of people: draws power.svg, .pdf and .png from power.csv."""
 
 from pathlib import Path
 
@@ -137,7 +137,7 @@ def write_page(result: Power, folder: Path) -> Path:
         f"Band: 95 % interval from {result.draws} samples of each size. Broken lines: if people differed less, or more, than "
         "those who were simulated."
     )
-    page.figure(svg, "Power over the number of people", caption, "power", points.to_csv(index=False))
+    page.figure(svg, "Power against the number of people", caption, "power", points.to_csv(index=False))
     caption = (
         "Power with its 95 % interval from the number of samples; its middle 95 % if the pool were other people of the "
         "population. Of the significant estimates: the share with the wrong sign (type S), and their mean size over the true one "
@@ -150,14 +150,14 @@ def write_page(result: Power, folder: Path) -> Path:
         "samples reach it. What the pool's size leaves open is more: see the column with other pools."
     )
     page.table(smallest.astype(object).where(smallest.notna(), None), caption)
-    page.heading("What this does not know")
+    page.heading("What this cannot know")
     for text in _NOT_KNOWN:
         page.text(text)
     return write(folder / "power.html", page.html().encode(errors="replace"))
 
 
 def warnings_of(result: Power) -> list[str]:
-    """What speaks against using the power as it is."""
+    """Reasons not to use the power as it is."""
     table, everybody = result.table, len(result.data.people)
     out = limits_of(result.data)
     low, high = result.interval
@@ -168,19 +168,19 @@ def warnings_of(result: Power) -> list[str]:
         )
     if result.effect.has_fixed_value:
         out.append(
-            "The effect compares people with a fixed number. For this, the mean of simulated people must be right, not only "
-            "their differences; in rotations, means of other schedules than the calibrated one miss those of real people by up "
-            "to 11 degrees."
+            "The effect compares people with a fixed number. This requires the mean of simulated people to be right, not "
+            "only their differences; in rotations, means for schedules other than the calibrated one differ from those of real "
+            "people by up to 11 degrees."
         )
     out += [f"Left out: {why}." for why in result.data.left_out]
     out += _drivers(result)
-    # the same columns of force channels are another measure, which was not compared
+    # in force channels, the same columns are another measure, which was not compared
     unknown = [name for name in result.effect.columns if name not in _COMPARED or is_index(result.data)]
     if unknown and result.data.is_simulated:
         out.append(
-            f"How much {listed(unknown)} scatters over trials and over people was never compared with real people. If simulated "
-            "people scatter too little, fewer people seem to be enough: read the power with people's spread times 1.5, or look "
-            "up the spread in a published study."
+            f"How much {listed(unknown)} varies over trials and over people has never been compared with real people. If "
+            "simulated people vary too little, fewer people seem to be enough: read the power with people's spread times 1.5, or "
+            "look up the spread in a published study."
         )
     if abs(result.standardised) > _LARGE:
         out.append(
@@ -190,7 +190,7 @@ def warnings_of(result: Power) -> list[str]:
     if not result.data.is_simulated:
         out.append(
             "The pool consists of people who took part. The power of a study to find the effect in its own data says nothing "
-            "that its p value does not say; to plan another study, name an effect that matters to it."
+            "beyond its p value; to plan another study, name an effect that matters to it."
         )
     if (table["untested"] > 0).any():
         worst = table.loc[table["untested"].idxmax()]
@@ -200,7 +200,7 @@ def warnings_of(result: Power) -> list[str]:
         )
     lost = everybody - sum(len(side) for side in result.sides)
     if lost and not (result.effect.is_between and len(set(result.data.table("trials")["group"])) > 2):
-        out.append(f"For {lost} of {everybody} people of the pool the effect is not known; they are left out.")
+        out.append(f"For {lost} of {everybody} people in the pool the effect is not known; they are left out.")
     widest = table.loc[(table["pool_high"] - table["pool_low"]).idxmax()]
     if widest["pool_high"] - widest["pool_low"] > _MOST_DOUBT:
         out.append(
@@ -211,7 +211,7 @@ def warnings_of(result: Power) -> list[str]:
 
 
 def _drivers(result: Power) -> list[str]:
-    """Names single people without whom the effect would be quite another one."""
+    """Names single people without whom the effect would be quite different."""
     out = []
     for side in result.sides:
         for person in side.index:

@@ -8,13 +8,13 @@ from pathlib import Path
 from .. import figures
 from ..figures.data import Data
 
-#: What stands between the name of a population and that of a group, in session.yaml.
+#: The text between the name of a population and that of a group, in session.yaml.
 _GROUP = ", group "
 
 
 def read_pool(folder: Path) -> Data:
-    """The tables of a rehearsal. Groups of its population, which are samples of their own elsewhere, are groups of people here.
-    Raises Error."""
+    """The tables of a rehearsal. Groups of its population are groups of people here, although elsewhere each is a sample of
+    its own. Raises Error."""
     samples = figures.samples_in(folder)
     if len(samples) < 2 or any(_GROUP not in str(sample.population) for sample in samples):
         return figures.read(folder)

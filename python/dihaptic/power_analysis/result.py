@@ -1,4 +1,4 @@
-"""What power() gives: the power of an experiment to find an effect, by the number of people."""
+"""The result of power(): the power of an experiment to find an effect, by the number of people."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from .effect import Effect
 
 #: Factors on the spread of people, for the sensitivity of the power to it.
 SPREADS = (0.7, 1.0, 1.5)
-#: Powers for which the smallest number of people is sought.
+#: Powers for which the smallest sufficient number of people is found.
 WANTED = (0.8, 0.9)
 #: Largest number of people (in each group) that is tried for them.
 MOST = 1000
-#: How often the pool itself is drawn anew, to tell what its size means for the power.
+#: How often the pool itself is drawn anew, to show how its size affects the power.
 _POOLS = 100
 
 
@@ -52,17 +52,17 @@ class Power:
 
     @property
     def standardised(self) -> float:
-        """Cohen's d: the effect over the SD of people, of two groups the pooled one."""
+        """Cohen's d: the effect divided by the SD of people, which is pooled for two groups."""
         return self.size / math.sqrt(sum(float(side.var()) for side in self.sides) / len(self.sides))
 
     @property
     def interval(self) -> tuple[float, float]:
-        """The 95 % interval of the effect, from the people of the pool (t; of two groups Welch's)."""
+        """The 95 % interval of the effect, from the people in the pool (by t or, for two groups, Welch's t)."""
         half = float(half_width([values[:, None] for values in self._pool], "welch" if self.effect.is_between else "t", 0.05)[0])
         return self.size - half, self.size + half
 
     def at(self, n: int, spread: float = 1) -> Found:
-        """The power of n people who are recruited (in each group). `spread` multiplies the deviations of people."""
+        """The power with n people recruited (in each group). `spread` multiplies the deviations of people."""
         if (n, spread) not in self._known:
             found = find_effect(self._pool, self._sizes(n), self.draws, self.test, self.alpha, self.seed, spread)
             self._known[n, spread] = found
@@ -70,10 +70,10 @@ class Power:
 
     @cached_property
     def table(self) -> pd.DataFrame:
-        """A row for each n: the power, with its 95 % interval from the number of draws (low, high), and what else the pool's
-        size makes possible (pool_low, pool_high); wrong_sign and exaggeration of significant estimates (errors of type S and
-        M); half_width of the confidence interval; untested, the share of samples without a test; and the
-        power if people differed less, or more (spread_0.7, spread_1.5)."""
+        """A row for each n: the power, with its 95 % interval from the number of draws (low, high), and the range that it
+        might have with other pools of this size (pool_low, pool_high); wrong_sign and exaggeration of significant estimates
+        (errors of type S and M); half_width of the confidence interval; untested, the share of samples without a test; and
+        the power if people differed less, or more (spread_0.7, spread_1.5)."""
         rows = []
         for n in self.n:
             found = self.at(n)
@@ -89,7 +89,7 @@ class Power:
     @cached_property
     def smallest(self) -> pd.DataFrame:
         """A row for each wanted power, 0.8 and 0.9: the smallest n, and those at which the upper and the lower end of the
-        power's interval reach it (may_be, probably). Missing: more than 1000."""
+        power's interval reach it (may_be, probably). A missing value stands for more than 1000."""
         rows = [(wanted, *smallest_size(self.at, wanted, MOST, self.fewest)) for wanted in WANTED]
         table = pd.DataFrame(rows, columns=["power", "n", "may_be", "probably"])
         return table.astype({name: "Int64" for name in ("n", "may_be", "probably")})
@@ -106,7 +106,7 @@ class Power:
         return [side.to_numpy(float) for side in self.sides]
 
     def _sizes(self, n: int) -> list[int]:
-        """How many people remain of n who are recruited, in each group."""
+        """How many of n recruited people remain, in each group."""
         recruited = [n, round(self.ratio * n)] if self.effect.is_between else [n]
         return [math.floor((1 - self.attrition) * each + 1e-9) for each in recruited]
 
@@ -119,7 +119,7 @@ class Power:
         return n
 
     def _interval_of_pool(self, n: int) -> tuple[float, float]:
-        """The middle 95 % of the power, if the pool were other people of the same population."""
+        """The middle 95 % of the power over pools of other people from the same population."""
         rng = np.random.default_rng(self.seed)
         draws = max(200, self.draws // 2)
         powers = []

@@ -35,8 +35,8 @@ def write_page(
 
     `paths`: a session's folder, a rehearsal's, a study's file, or a folder that contains sessions; or several of them,
     which are compared, and need a folder `out` for the page. `told` is what `dihaptic report` adds to the tables
-    (src/analysis/report/report_json.cpp). Each experiment, and people and simulated people, have separate parts of the
-    page. Figures are drawn in `jobs` processes. Raises Error.
+    (src/analysis/report/report_json.cpp). Each experiment has a part of the page, and people and simulated people are kept
+    apart. Figures are drawn in `jobs` processes. Raises Error.
 
     >>> from dihaptic.reports import write_page
     >>> write_page(lift_session).name
@@ -48,7 +48,7 @@ def write_page(
     several = not isinstance(paths, (str, Path)) and len(paths) > 1
     if several and not out:
         raise error("has no folder", "Name one for the page, with --out.", key="out")
-    # a choice that is not needed is not written into scripts
+    # choices that make no difference are not written into scripts
     every = [figures.Data(sittings, None, sample if len(found) > 1 else Sample(None, None, None)) for sample in found]
     folder = Path(os.path.abspath(out)) if out else every[0].folder
     titles = list(dict.fromkeys(data.title for data in every))
@@ -88,13 +88,13 @@ def _figures_of(folder: Path, data: figures.Data, every: list[figures.Data]) -> 
     if len(every) == 1:
         return folder / "figures"
     alone = sum(one.title == data.title for one in every) == 1
-    number = every.index(data) + 1  # a title may have no Latin letter
+    number = every.index(data) + 1  # a title may contain no Latin letter
     words = re.sub(r"[^a-z0-9]+", "-", (data.title if alone else str(data.sample)).lower()).strip("-")
     return folder / f"figures-{number}-{words[:60]}"
 
 
 def _told_of(data: figures.Data, told: dict[str, Any]) -> dict[str, Any]:
-    """The program's description of these sessions: that of the first sample with one of them, with `who` of all samples."""
+    """The description of these sessions: that of the first sample with one of them, but with the `who` of all samples."""
     folders = {str(session.folder) for session in data.sessions}
     own = [each for each in told.get("samples") or [] if folders & {os.path.abspath(f) for f in each.get("folders") or []}]
     if not own:

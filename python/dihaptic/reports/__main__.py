@@ -49,7 +49,7 @@ def main(words: list[str]) -> int:
 
 
 class _Progress:
-    """In a terminal, one line with the figure that was drawn last."""
+    """In a terminal, shows the figure that was drawn last in one line."""
 
     def __init__(self) -> None:
         self._shows = sys.stderr.isatty()

@@ -1,4 +1,4 @@
-"""The models of learning that were fitted, and notes on fits that say little."""
+"""The models of learning that were fitted, and notes on fits whose parameters mean little."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _PARAMETERS = {
 }  # fmt: skip
 #: Columns of adaptation.csv with the models' curves, and what they are.
 _CURVES = {"two_rate": "two-rate model", "single_rate": "single-rate model"}
-#: A parameter as near as this to a bound, or to the other retention, is taken to be at it (fits.csv has nine digits).
+#: A parameter that is this close to a bound, or to the other retention, counts as equal to it (fits.csv has nine digits).
 _NEAR = 1e-3
 #: The share of the variance below which a model explains little.
 _LITTLE = 0.2
@@ -27,8 +27,10 @@ _MOST_NOTES = 6
 
 
 def models_table(fits: pd.DataFrame, single: bool) -> pd.DataFrame:
-    """The parameters of fits.csv, a row for each group and round: of a `single` person with their intervals, of several
-    the medians with quartiles."""
+    """The parameters of fits.csv, with a row for each group and round.
+
+    They have their intervals for a `single` person, and are medians with quartiles for several people.
+    """
     rows = []
     several = fits["group"].nunique() > 1
     for (group, part), own in fits.groupby(["group", "round"], sort=False):
@@ -40,7 +42,7 @@ def models_table(fits: pd.DataFrame, single: bool) -> pd.DataFrame:
                 between = f" ({own[f'{name}_95'].iloc[0]})" if f"{name}_95" in own else ""
                 row[words] = in_short(own[name].iloc[0]) + between
             else:
-                # rates lie between 0 and 1, and people's are far from normal
+                # rates lie between 0 and 1, and are far from normally distributed over people
                 low, middle, high = own.groupby("person")[name].mean().quantile([0.25, 0.5, 0.75])
                 row[words] = with_interval(middle, low, high)
         if len(row) > 2:
@@ -61,7 +63,7 @@ def notes_on_models(data: Data) -> str:
             if at:
                 said.append((at, len(known), f"{words} lies at its bound {bound}"))
         reaching = sum(_reaches_bound(text) for text in fits.get(f"{name}_95", pd.Series(dtype=str)).dropna())
-        if reaching and len(data.people) == 1:  # of one person, the intervals are on the page
+        if reaching and len(data.people) == 1:  # for one person, the intervals are on the page
             said.append((reaching, len(known), f"the interval of {words} reaches a bound"))
     if {"A_slow", "A_fast"} <= set(fits):
         known = (fits["A_slow"] - fits["A_fast"]).dropna()

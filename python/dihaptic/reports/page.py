@@ -11,7 +11,7 @@ from typing import Any
 
 import pandas as pd
 
-#: Points of a figure that are larger than this [bytes] are in a file beside the page instead of on it.
+#: Points of a figure that take more than this [bytes] are in a file beside the page instead of on it.
 _MOST_POINTS = 200_000
 #: Maximum number of columns of a table that fits on paper.
 _MOST_COLUMNS = 8
@@ -52,8 +52,9 @@ class Page:
         self._body.append(f"<p{_class(kind)}>{escape(text)}</p>")
 
     def table(self, table: pd.DataFrame, caption: str = "", *, folded: str = "", keys: int = 0) -> None:
-        """A table with its header; numbers have three digits. With `folded`, only this title is seen at first. With `keys`,
-        a table that is too wide for paper is split into pieces, each of which begins with this number of its columns."""
+        """A table with its header; numbers have three digits. With `folded`, only this title is visible at first. With
+        `keys`, a table that is too wide for paper is split into pieces, each of which begins with this number of its
+        columns."""
         if len(table) == 0:
             return
         rest = table.shape[1] - keys
@@ -130,7 +131,7 @@ _BUTTONS = [("copy", "Copy"), ("svg", "Save SVG"), ("png", "Save PNG")]
 
 
 def in_short(value: Any) -> str:
-    """A cell in words: numbers with three digits, "-" for what is missing. What is as small as a rounding error is 0."""
+    """A cell in words: numbers with three digits, "-" for what is missing. A number as small as a rounding error becomes 0."""
     if isinstance(value, (bool, str)):
         return {True: "yes", False: "no"}.get(value, str(value)) if isinstance(value, bool) else value
     if value is None or pd.isna(value):

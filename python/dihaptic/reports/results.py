@@ -15,7 +15,7 @@ from ..figures.words import counted, label, level, with_unit, words_of
 from .page import in_short
 from .simulated import limits_of
 
-#: Number of measures in the sentences; the others are in the table.
+#: Number of measures in the sentences; the table has the others.
 _MOST_MEASURES = 3
 #: Figures of lifts in the sentences, if the task has no measures of its own.
 _OF_LIFTS = ["peak_grip_N", "static_grip_N", "safety_margin"]
@@ -69,9 +69,10 @@ def capital(text: str) -> str:
 
 
 def with_spreads(means: pd.Series, spreads: pd.Series) -> list[str]:
-    """ "0.69 ± 0.08": means with their standard deviations, all with as many decimals as two digits of the middle deviation
-    need; or, without any, as three digits of the largest mean. No mean has more than four digits, and a deviation below
-    them, of rounding, is left out.
+    """ "0.69 ± 0.08": means with their standard deviations, all with the same number of decimals.
+
+    These are as many as two digits of the middle deviation need or, without deviations, three digits of the largest mean.
+    No mean has more than four digits, and a deviation too small to show in them is left out.
 
     >>> with_spreads(pd.Series([0.1857, 0.7304]), pd.Series([0.0252, 0.11]))
     ['0.19 ± 0.03', '0.73 ± 0.11']
@@ -126,7 +127,7 @@ def _answered(data: Data) -> list[str]:
 
 def _fitts(data: Data) -> str:
     for plan in fitts.plans(data):
-        return f"Movement time over the index of difficulty (ID): {fitts.law_in_words(plan.points(data))}."
+        return f"Movement time against the index of difficulty (ID): {fitts.law_in_words(plan.points(data))}."
     return ""
 
 
@@ -159,7 +160,7 @@ def _measured(data: Data) -> list[str]:
     if not data.has("trials") or "attempt" not in data.table("trials"):
         return []
     index = is_index(data)
-    # what was learned has a sentence, and details of its regression are in the table
+    # learning has a sentence of its own, and the table has the details of its regression
     names = [measure.column for measure in data.measures if not (index and measure.column.startswith("adaptation_index"))]
     own = [("trials", name) for name in names[:_MOST_MEASURES]]
     if data.has("lifts") and not data.measures:
@@ -168,7 +169,7 @@ def _measured(data: Data) -> list[str]:
     axes = axes_of_design(data)
     apart = [name for name in (axes.get("colour"), axes.get("panel")) if name in _APART]
     main = [name for name in (axes.get("x"), axes.get("colour")) if name and name not in apart]
-    # each factor has its sentence: a mean over surfaces hides what the surfaces do
+    # each factor has a sentence of its own: a mean over surfaces would hide their effect
     out = [_sentence(data, measure, [name, *apart], table) for table, measure in own for name in main]
     out = out or [_sentence(data, measure, apart, table) for table, measure in own]
     if out and len(names) > _MOST_MEASURES:
@@ -259,7 +260,7 @@ def _thresholds(data: Data) -> str:
 
 
 def _missed_solves(data: Data) -> str:
-    """Sessions whose ticks missed something, in a sentence."""
+    """A sentence about sessions in which ticks missed something."""
     ticks, missed, people = 0, 0, set()
     for sitting in data.sittings:
         convergence = sitting.session.info.get("convergence") or {}

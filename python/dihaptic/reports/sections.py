@@ -1,4 +1,4 @@
-"""What the page of a report says about one sample: facts, figures, and tables."""
+"""The contents of a report's page about one sample: facts, figures, and tables."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def add_sample(
     page: Page, data: Data, told: dict[str, Any], figures: Path, *, jobs: int, progress: Callable[[str], None] | None
 ) -> list[Drawn]:
     """Adds a sample to the page, and saves its figures in the folder `figures`: the result, its figures and tables, the
-    quality of the data, and then details for few readers. `told` is the program's description of the sample
+    quality of the data, and then details that few readers need. `told` is the program's description of the sample
     (src/analysis/report/report_json.cpp). Raises Error."""
     _facts(page, data, told)
     _result(page, data, told)
@@ -113,7 +113,7 @@ def _figure(page: Page, drawn: Drawn) -> None:
 
 
 def _text_of(file: Path, script: Path) -> str:
-    """A file of a figure, which a script that somebody has changed need not have made. Raises Error."""
+    """A file of a figure, which may be missing if somebody has changed its script. Raises Error."""
     if fault := why_unreadable(file):
         raise error(f"cannot be read: {fault}", f"Run {script.name}, which has been changed, or remove it.", file=str(file))
     return file.read_text(encoding="utf-8", errors="replace")
@@ -190,7 +190,7 @@ def _outcomes(page: Page, data: Data) -> None:
 
 
 def _measures(page: Page, data: Data) -> None:
-    """Each measure by condition, and why values are missing."""
+    """Each measure by condition, and the reasons for missing values."""
     if not data.has("trials") or not data.measures:
         return
     trials = counting_trials(data)
@@ -223,7 +223,7 @@ def _means(page: Page, data: Data, measures: list[str], table: str) -> None:
 
 def _by_condition(data: Data, measures: list[str], table: str) -> tuple[pd.DataFrame, pd.Series]:
     """Means of measures, with intervals: a row for each measure and combination of the other factors, and a column for each
-    level of the first factor; and how many values each mean is over."""
+    level of the first factor; and the number of values in each mean."""
     axes = axes_of_design(data)
     columns = axes.get("x", "")
     others = [axes[name] for name in ("colour", "panel") if name in axes]
@@ -382,6 +382,6 @@ def _mean_of(values: pd.Series) -> tuple[float, float, float]:
 
 
 def _joined(table: pd.DataFrame, columns: list[str]) -> pd.Series:
-    """The words of several columns, without those that are empty, or repeat the one before."""
+    """The words of several columns, without those that are empty or repeat the previous one."""
     rows = table[[column for column in columns if column in table]].fillna("").astype(str)
     return rows.apply(lambda row: ", ".join(dict.fromkeys(filter(None, row))) or "all", axis=1)

@@ -1,4 +1,4 @@
-"""Names the abilities that an experiment needs and simulated people lack: their answers would look like any others."""
+"""Names the abilities that an experiment needs but simulated people lack, since their answers would look like any others."""
 
 from __future__ import annotations
 
@@ -12,8 +12,7 @@ _WARNING = re.compile(r": warning: (?P<name>.*?): (?P<what>[^:].*simulated peopl
 
 
 def limits_of(data: Data) -> list[str]:
-    """A sentence for each ability that the experiment asks for and simulated people lack, as the program noted in their
-    sessions. [] for people."""
+    """A sentence for each ability that the experiment requires but simulated people lack, from notes. [] for people."""
     if data.sample.moved_by != "simulated_person":
         return []
     names: dict[str, list[str]] = {}

@@ -1,4 +1,4 @@
-"""Methods in sentences: a start for those of a paper."""
+"""The methods in sentences: a draft for a paper."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..figures.words import counted, in_print, level, with_unit, words_of
 from .page import in_short
 from .results import MOST_LISTED, capital, listed, with_spreads
 
-#: Maximum number of perturbations with a sentence; the others are in the table.
+#: Maximum number of perturbations with a sentence; the table has the others.
 _MOST_PERTURBATIONS = 6
 
 

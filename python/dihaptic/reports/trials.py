@@ -1,4 +1,4 @@
-"""Chooses recorded trials that can be looked at on the page of a report."""
+"""Chooses recorded trials that can be viewed on the page of a report."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ _POINTS_PER_S = 100
 _MOST_NUMBERS = 200_000
 #: The longest recording without trials that is shown as one [s].
 _LONGEST = 60.0
-#: Of longer trials, only this much is shown [s].
+#: Only this much of a longer trial is shown [s].
 _LONGEST_TRIAL = 30.0
 
 
 @dataclass
 class _Curve:
-    """A curve of a strip: a quantity of the recording, its size if it is a vector, times a scale."""
+    """A curve of a strip: a quantity of the recording (the magnitude of a vector), multiplied by a scale."""
 
     name: str
     quantity: str
@@ -54,8 +54,8 @@ class _Trial:
 def trials_to_look_at(data: Data) -> dict[str, Any]:
     """Trials of recorded sessions as page.js draws them, with the sentence `said` above them; {} without recordings.
 
-    All trials if they are few, or else some, evenly spaced over the sessions. Each quantity has a list of curves, and each
-    trial their values at equal steps of time (float32, base64).
+    All trials if they are few, and otherwise a selection, evenly spaced over the sessions. Each quantity has a list of
+    curves, and each trial their values at equal steps of time (float32, base64).
     """
     trials = [trial for sitting in data.recorded for trial in _trials_of(sitting)]
     if not trials:
