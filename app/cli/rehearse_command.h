@@ -1,7 +1,7 @@
 // The command that runs the sessions of a rehearsal's simulated people. It is kept in
 // rehearsal.yaml so that `dihaptic collect` can print it when people are missing. That file may
 // come from a stranger, and the user will copy the command into a shell, so the printed command is
-// always composed anew from the checked parts of the stored one.
+// always composed from the checked parts of the stored one.
 #pragma once
 
 #include <cstdint>

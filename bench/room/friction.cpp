@@ -39,7 +39,7 @@ struct Drift {
     double drawn = 0;    ///< from the drawn pose
     double settled = 0;  ///< from its pose after a second, when soft contacts bear their load
 };
-/// Stops when a body moves further than `fallen`; `drawn` is then a displacement beyond it.
+/// Stops when a body moves farther than `fallen`; `drawn` is then a displacement beyond it.
 Drift drift(const scene::Scene& scene, const Simulator& simulator, double time,
             double fallen = std::numeric_limits<double>::infinity()) {
     const int settling = steps(1);

@@ -30,7 +30,7 @@ Time lift(measure::Bench& bench) {
     return reached;
 }
 
-/// A tone that a servo's ticks start again and again.
+/// A tone that a servo's ticks start repeatedly.
 class Tone {
   public:
     Tone(display::SoundTo to, const servo::Servo& servo, const recording::SessionFolder& folder)

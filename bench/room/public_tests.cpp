@@ -46,7 +46,7 @@ scene::Body block_of(double size, double mass) {
 }
 
 /// Mean speed of the first body along `way` from 1 s to 6 s [um/s], when soft contacts bear their
-/// load; none if it moved further than a held body.
+/// load; none if it moved farther than a held body.
 std::optional<double> creep(const Trial& trial, const Simulator& simulator, const Vec3& way) {
     const int settled = steps_in(1), all = steps_in(6);
     double at_first = 0, at_last = 0;

@@ -91,9 +91,8 @@ bool has_both_signs(const Stretch& s) {
     return any(1) && any(-1);
 }
 
-/// Compensations that show the learning in those trials of a block that have one kind: the
-/// compensations measured in channel trials or, if the session has no channels, in all of the
-/// trials.
+/// Compensations that show learning in a block's trials of one kind: those measured in channel
+/// trials or, if the session has no channels, in all trials.
 std::vector<double> learned_in(const Stretch& stretch, TrialKind kind, bool in_channels) {
     if (!in_channels) return measured_kind(stretch, kind);
     return has_kind(stretch, kind) ? stretch.compensation : std::vector<double>{};

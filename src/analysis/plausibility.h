@@ -1,5 +1,5 @@
 // Finds movements that neither a person nor an experimenter can have intended: a simulated hand
-// that moves further than an arm can reach, and a driven body that jumps.
+// that moves farther than an arm can reach, and a driven body that jumps.
 #pragma once
 
 #include <cstdint>

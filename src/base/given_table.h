@@ -35,7 +35,7 @@ class GivenTable {
     /// table has both decimal points and decimal commas, because one of the two must then separate
     /// thousands.
     std::optional<double> number(const std::string& cell);
-    /// To be called at the end: warns about numbers in which a comma may separate thousands.
+    /// Must be called at the end: warns about numbers in which a comma may separate thousands.
     void tell_commas(Diagnostics& diagnostics) const;
 
     char separator() const { return separator_; }

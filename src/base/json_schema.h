@@ -42,7 +42,7 @@ struct SchemaKeys {
 class JsonSchema {
   public:
     /// Describes a part of the file that is read elsewhere (a Node with this name in a visit()),
-    /// using the keys of a struct or a schema. To be called before of(). A Node without a
+    /// using the keys of a struct or a schema. Must be called before of(). A Node without a
     /// description may be any mapping.
     template <class Struct>
     void part(const std::string& name, const std::string& heading, const Struct& value) {

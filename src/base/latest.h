@@ -15,7 +15,7 @@ class Latest {
     /// All three copies are initialised with `value`.
     explicit Latest(const T& value = {}) : values_{value, value, value} {}
 
-    /// Returns all three copies, e.g. to reserve memory for them. To be called only before the
+    /// Returns all three copies, e.g. to reserve memory for them. Must be called only before the
     /// threads start.
     std::array<T, 3>& values() noexcept { return values_; }
 

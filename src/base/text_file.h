@@ -18,7 +18,7 @@ constexpr int64_t kMostTable = 200'000'000;
 /// regular file, is larger than `most` [bytes], cannot be opened, or is not UTF-8 text.
 std::string read_text_file(const std::string& file, int64_t most = kMostText);
 
-/// To be called before work whose result will be written to `file`. Throws Error if write_file()
+/// Must be called before work whose result will be written to `file`. Throws Error if write_file()
 /// could not write there now, or if `file` is the same as `input`, the file that the work reads.
 /// `what` describes the input in words.
 void check_output(const std::string& file, const std::string& input, const std::string& what);

@@ -12,7 +12,7 @@ namespace dihaptic::devices {
 
 class ForceDrops {
   public:
-    /// Drops further apart than this are separate events.
+    /// Drops farther apart than this are separate events.
     static constexpr Time kApart = std::chrono::seconds(1);
     static constexpr Time kLongest = std::chrono::seconds(2);  ///< a longer series is a fault
 

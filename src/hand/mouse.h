@@ -33,9 +33,9 @@ class MouseDriver final : public Driver {
     /// difference from those of the hand. Throws Error like finger_places().
     MouseDriver(const HandSpec& spec, const std::vector<std::string>& fingers);
 
-    /// Moves the hand to `goal` from time `t` on. To be called from a single thread other than the
-    /// servo's. `t` is the time of the newest Frame known to the caller; targets that the servo has
-    /// computed since then hardly change.
+    /// Moves the hand to `goal` from time `t` on. Must be called from a single thread other than
+    /// the servo's. `t` is the time of the newest Frame known to the caller; targets that the servo
+    /// has computed since then hardly change.
     void follow(const Posture& goal, double t) noexcept;
     const Posture& goal() const { return goal_; }
 

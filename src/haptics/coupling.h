@@ -95,7 +95,8 @@ class DualSpring {
 
     void before_step(World& world, BodyIndex proxy, const frame::Handle& handle, double h,
                      bool was_touching) noexcept;
-    /// Updates the force. To be called in every tick, before the step of the world if there is one.
+    /// Updates the force. Must be called in every tick, before the step of the world if there is
+    /// one.
     void sample(const World& world, BodyIndex proxy, const frame::Handle& handle,
                 double h) noexcept;
     Pull pull(const World& world, BodyIndex proxy, const frame::Handle& handle) const noexcept {

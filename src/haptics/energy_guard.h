@@ -35,7 +35,7 @@ class EnergyGuard {
     explicit EnergyGuard(frame::EnergyGuardMode mode, double budget = kEnergyBudget)
         : mode_(mode), budget_(budget) {}
 
-    /// To be called once per tick of h [s] with the handle, the proxy after the tick's step, the
+    /// Must be called once per tick of h [s] with the handle, the proxy after the tick's step, the
     /// wrench on the handle that the coupling requests from now on, and the current energy of the
     /// coupling's springs, whether they act or not [J]. `stepped` tells whether the world stepped
     /// in this tick; the time between two steps is assessed as a whole. Returns the wrench to add

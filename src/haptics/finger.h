@@ -35,7 +35,7 @@ class Finger {
     /// proxies: a point has its own coupling.
     void retune(const frame::CouplingSettings& coupling) noexcept;
 
-    /// Moves the proxy to the handle. To be called before the first tick, and at each restart.
+    /// Moves the proxy to the handle. Must be called before the first tick, and at each restart.
     void place(World& world, const frame::Handle& handle) noexcept;
 
     /// Turns a proxy that does not follow its handle's orientation along with the workspaces:
@@ -43,13 +43,13 @@ class Finger {
     /// [rad/s].
     void carry(World& world, const Quat& R_WT, const Vec3& w_WT) const noexcept;
 
-    /// To be called first in every tick. `step` is the time step of the world [s].
+    /// Must be called first in every tick. `step` is the time step of the world [s].
     void begin_tick(const World& world, const frame::Handle& handle, double step) noexcept;
-    /// To be called before and after the step, in ticks in which the world steps.
+    /// Must be called before and after the step, in ticks in which the world steps.
     void before_step(World& world, const frame::Handle& handle, double step) noexcept;
     void after_step(World& world, const frame::Handle& handle) noexcept;
 
-    /// To be called last in every tick. Returns the force that the coupling requests for the
+    /// Must be called last in every tick. Returns the force that the coupling requests for the
     /// current state of the handle [N]. `tick` is the duration of the tick [s].
     Vec3 force(World& world, const frame::Handle& handle, double tick) noexcept;
     /// Torque that belongs to the last force() [N*m].

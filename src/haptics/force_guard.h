@@ -34,7 +34,7 @@ class ForceGuard {
     /// `allowed` tells whether the dead-man switch is held; if not, the result is zero at once.
     /// `share` is the fraction from SoftStart.
     Wrench limit(const Wrench& felt, bool allowed, double share, uint32_t& status) noexcept;
-    /// To be called if zero was sent instead of the result of limit(); the force then rises again
+    /// Must be called if zero was sent instead of the result of limit(); the force then rises again
     /// from zero.
     void drop() noexcept;
     /// Restarts after a pause: the force starts at zero, and energy generated before is forgotten.

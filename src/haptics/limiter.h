@@ -18,7 +18,7 @@ class Limiter {
     /// Returns the force that may be sent after a tick of h [s], and adds every intervention to
     /// `status`. After a requested force that is not finite, the result is zero until restart().
     Vec3 limit(const Vec3& asked, double h, uint32_t& status) noexcept;
-    /// To be called if zero was sent instead of the last force; the force then rises again from
+    /// Must be called if zero was sent instead of the last force; the force then rises again from
     /// zero.
     void drop() noexcept { last_.setZero(); }
     bool faulted() const noexcept { return faulted_; }

@@ -19,7 +19,7 @@ class Onset {
 
     /// The fraction s in this tick, between 0 and 1.
     double share() const noexcept { return share_; }
-    /// To be called last in a tick of h [s].
+    /// Must be called last in a tick of h [s].
     void advance(bool touching, double h) noexcept {
         if (time_ <= 0) return;
         const double way = (1 - kFirstShare) * h / time_;

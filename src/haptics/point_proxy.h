@@ -24,7 +24,7 @@ class PointProxy {
     PointProxy(const scene::Scene& scene, BodyIndex body, const frame::CouplingSettings& coupling,
                const frame::ProxySettings& settings);
 
-    /// Moves the point to p_WP. To be called before the first tick.
+    /// Moves the point to p_WP. Must be called before the first tick.
     void place(World& world, const Vec3& p_WP) noexcept;
     /// Computes one tick of h [s] in a world with a time step of `step` [s]: moves the point,
     /// applies the appropriate share of the reaction to each body that it touches (in the coming

@@ -17,9 +17,9 @@ class SolvedPoint {
     SolvedPoint(const scene::Scene& scene, BodyIndex body, const frame::CouplingSettings& coupling,
                 const frame::ProxySettings& settings);
 
-    /// Moves the point to p_WP. To be called before the first tick.
+    /// Moves the point to p_WP. Must be called before the first tick.
     void place(World& world, const Vec3& p_WP) noexcept;
-    /// To be called before and after a step of the world of h [s].
+    /// Must be called before and after a step of the world of h [s].
     void before_step(World& world, const frame::Handle& handle, double h) noexcept;
     void after_step(World& world, const frame::Handle& handle) noexcept;
     /// Returns the current force on the handle: the force of the step's contacts or, in a tick of h

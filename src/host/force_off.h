@@ -8,7 +8,7 @@
 
 namespace dihaptic::host {
 
-/// Signals by which a process dies because of its own error.
+/// Signals by which a process ends because of its own error.
 inline constexpr std::array kErrors{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIGTRAP, SIGABRT};
 
 /// The longest time that a dying program waits for the report that force is off.

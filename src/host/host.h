@@ -1,5 +1,5 @@
 // The device host: a separate process that owns real devices and switches the force off when the
-// program that uses them dies, stops or hangs.
+// program that uses them crashes, stops or hangs.
 //
 // The device host serves the program's requests: those of the ticks through a shared page, and all
 // others through a socket. It sets the force of every device to zero at the program's request, when

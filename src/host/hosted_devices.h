@@ -1,7 +1,7 @@
 // The program's side of real devices that are owned by another process, the device host.
 //
 // The device host (host.h) is a small program in which nothing else runs. It switches the force off
-// when this program dies, stops or hangs, whatever the cause. README.md describes how the two
+// when this program crashes, stops or hangs, whatever the cause. README.md describes how the two
 // communicate, and the times involved.
 #pragma once
 

@@ -101,7 +101,8 @@ class HeadTracker {
     HeadTracker(const HeadTracker&) = delete;
     HeadTracker& operator=(const HeadTracker&) = delete;
 
-    /// Returns the newest pose, or nullopt before the first one. To be called from only one thread.
+    /// Returns the newest pose, or nullopt before the first one. Must be called from only one
+    /// thread.
     std::optional<HeadPose> newest();
 
     struct Told {

@@ -12,9 +12,9 @@ namespace {
 
 /// The file is searched for chunks in blocks of this many bytes.
 constexpr int64_t kBlock = 1 << 16;
-/// Bytes that look like a chunk but are not a chunk may have to be read again and again, once from
-/// each such place. If a file requires more repeated reading than this, it must have been crafted
-/// to keep its reader busy [bytes].
+/// Bytes that only look like a chunk may have to be read repeatedly, once from each place where a
+/// chunk seems to start. If a file requires more repeated reading than this, it must have been
+/// crafted to keep its reader busy [bytes].
 constexpr int64_t kMostWasted = int64_t{1} << 30;
 constexpr std::array kKinds{kHead, kData, kPacked, kDone};
 

@@ -39,7 +39,7 @@ class Id {
 };
 
 Id create_file(const std::string& path);
-/// Writes all buffered data. To be called while all objects are still open, because closing an
+/// Writes all buffered data. Must be called while all objects are still open, because closing an
 /// object cannot report an error.
 void flush(hid_t file);
 /// Closes the file, in which no object may be open any more. Throws WriteFailure unless the whole

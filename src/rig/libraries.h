@@ -16,7 +16,7 @@ void find_libraries(Rig& rig, const std::string& rig_file);
 std::vector<Problem> strange_libraries(const Rig& rig);
 
 /// Throws Error if the rig was not named by the operator and would load libraries that are not
-/// allowed. To be called before the rig's devices, outlets or trackers are opened.
+/// allowed. Must be called before the rig's devices, outlets or trackers are opened.
 void check_libraries(const Rig& rig);
 
 }  // namespace dihaptic::rig

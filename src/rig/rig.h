@@ -148,7 +148,7 @@ Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics,
 /// Path of a rig's calibration: the file named in the rig or, if the rig names none, a file next to
 /// the rig file.
 std::string calibration_file(const Rig& rig, const std::string& rig_file);
-/// Throws Error if a calibration could not be stored in `file`. To be called before samples are
+/// Throws Error if a calibration could not be stored in `file`. Must be called before samples are
 /// taken.
 void check_calibration_file(const std::string& rig_file, const std::string& file);
 /// Writes a calibration, and a picture of its residuals next to it. Returns the picture's name.
@@ -189,9 +189,9 @@ std::vector<frame::DeviceInfo> describe(const Rig& rig, const std::vector<std::s
 std::unique_ptr<devices::DeviceGroup> make_devices(
     const Rig& rig, const std::vector<std::string>& fingers, const devices::Context& context,
     const std::optional<host::Hosting>& hosting = {});
-/// Claims the real devices that make_devices() made for this process. To be called before they are
-/// activated; a device host claims its devices itself. Throws Error if another program holds one of
-/// them.
+/// Claims the real devices that make_devices() made for this process. Must be called before they
+/// are activated; a device host claims its devices itself. Throws Error if another program holds
+/// one of them.
 std::vector<devices::DeviceClaim> claim_devices(const Rig& rig,
                                                 const std::vector<std::string>& fingers,
                                                 const devices::DeviceGroup& devices);

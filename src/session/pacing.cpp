@@ -26,7 +26,7 @@ bool Pacing::wait_in_pause() {
 
 void Pacing::wait(Time now) {
     if (live_.paused) {
-        pace_ = -1;  // after the pause, the pace is timed anew
+        pace_ = -1;  // after the pause, timing starts again
         if (wait_in_pause()) return;
     }
     while (!over()) {

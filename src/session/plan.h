@@ -110,7 +110,7 @@ bool trials_left(const std::string& session);
 /// Opens the plan's devices, which are then passed to its session. If the devices report more than
 /// their rig does, the plan is checked against their report: settings given as a share of the
 /// devices' maximum are resolved, and warnings are added. `host` is the program that owns real
-/// devices (host::program()) and switches force off when this process dies; if it is "", this
+/// devices (host::program()) and switches force off when this process crashes; if it is "", this
 /// process owns the devices. The plan's driver must outlive the devices. `given_up` returns whether
 /// to stop waiting for a device host that does not answer; it may be empty. Throws Error.
 std::unique_ptr<devices::DeviceGroup> open_devices(Plan& plan, const std::string& host = "",

@@ -33,14 +33,14 @@ class Mixer {
     /// `delay`: time from a request to its sound [s].
     Mixer(std::vector<Wave> waves, double rate, double delay);
 
-    /// To be called from one thread: adds a request, without waiting or allocating. Returns false
+    /// Must be called from one thread: adds a request, without waiting or allocating. Returns false
     /// when too many requests are pending.
     bool order(const Order& order) noexcept { return orders_.push(order); }
-    /// To be called from a second thread: renders the next samples of the stream, without waiting
+    /// Must be called from a second thread: renders the next samples of the stream, without waiting
     /// or allocating. `first`: time at which the first of these samples is heard, on the stream's
     /// clock [ns].
     void render(std::span<float> out, int64_t first) noexcept;
-    /// To be called from a third thread: removes and returns the oldest onset not yet taken.
+    /// Must be called from a third thread: removes and returns the oldest onset not yet taken.
     std::optional<Onset> take_onset() { return onsets_.pop(); }
 
     double rate() const noexcept { return rate_; }

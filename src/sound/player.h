@@ -37,9 +37,9 @@ class Player {
     Player(const Player&) = delete;
     Player& operator=(const Player&) = delete;
 
-    /// To be called in each tick. On the real clock, neither waits nor allocates.
+    /// Must be called in each tick. On the real clock, neither waits nor allocates.
     void hear(const frame::Frame& frame) noexcept;
-    /// To be called after the last tick. Returns messages about any failures.
+    /// Must be called after the last tick. Returns messages about any failures.
     std::vector<std::string> finish();
 
   private:

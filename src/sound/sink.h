@@ -16,14 +16,14 @@ class Sink {
     virtual ~Sink() = default;
 
     virtual Mixer& mixer() noexcept = 0;
-    /// To be called during the tick at this session time. Returns the corresponding time on the
+    /// Must be called during the tick at this session time. Returns the corresponding time on the
     /// stream's clock [ns].
     virtual int64_t clock(Time session) const noexcept = 0;
-    /// To be called during the tick, after the requests of the tick. Neither waits nor allocates.
+    /// Must be called during the tick, after the requests of the tick. Neither waits nor allocates.
     virtual void pass(Time) noexcept {}
-    /// To be called every few milliseconds, from a thread other than the servo's.
+    /// Must be called every few milliseconds, from a thread other than the servo's.
     virtual void tend() {}
-    /// To be called after the last tick. Returns messages about any failures.
+    /// Must be called after the last tick. Returns messages about any failures.
     virtual std::vector<std::string> finish() = 0;
 };
 

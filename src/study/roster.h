@@ -77,7 +77,7 @@ std::vector<std::string> reasons_against(const StudyFile& study, const Member& p
 /// contain a digit, so that it is not a name.
 void check_identifier(const std::string& id);
 
-/// Adds a line with the current time to log.csv in the study's folder. To be called before the
+/// Adds a line with the current time to log.csv in the study's folder. Must be called before the
 /// action itself, so that nothing happens that is not in the log. Throws Error when the line cannot
 /// be written.
 void log(const StudyFile& study, const std::string& action, const std::string& participant,

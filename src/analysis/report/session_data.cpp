@@ -26,8 +26,8 @@ std::vector<Problem> changed_of(const recording::SessionFolder& folder,
     return out;
 }
 
-/// Reads trials.csv. Throws Error when the table cannot be read; the message says what is known
-/// about the original state of the table.
+/// Reads trials.csv. Throws Error when the table cannot be read; the message states what is known
+/// about the original table.
 rows::TrialFile trials_of(const recording::SessionFolder& folder,
                           const std::vector<Problem>& changed) {
     try {

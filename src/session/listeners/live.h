@@ -121,7 +121,7 @@ class Live : public Listener {
     /// tracking. `X_WV` is the head's pose at that time (see HeadSeen). `tracked` states whether
     /// the pose was measured, not guessed.
     void note_shown(int64_t tick, Clock::time_point at, const Pose& X_WV, bool tracked) noexcept;
-    /// Removes and returns the oldest showing not yet taken. To be called from only one other
+    /// Removes and returns the oldest showing not yet taken. Must be called from only one other
     /// thread.
     std::optional<recording::Showing> take_showing() { return showings_.pop(); }
     std::optional<recording::HeadSeen> take_head() { return heads_.pop(); }

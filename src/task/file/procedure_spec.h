@@ -180,7 +180,7 @@ struct ProcedureSpec {
     std::optional<model::Sigmoid> sigmoid;
     std::optional<Design> design;
     double guess = 0.5;  ///< probability of "yes" far below the threshold
-    /// Whether the guess rate equals the lapse rate, in place of `guess`.
+    /// Whether the guess rate equals the lapse rate; this replaces `guess`.
     bool guess_is_lapse = false;
     std::optional<StaircaseSpec> staircase;
     std::optional<QuestSpec> quest;

@@ -14,14 +14,14 @@ class Displayer {
     /// `plan` must outlive the displayer. `seed` is used for the noise.
     Displayer(const TaskPlan& plan, uint64_t seed, double tick);
 
-    /// To be called in each tick before the other functions. Stores the poses of the last Frame,
+    /// Must be called in each tick before the other functions. Stores the poses of the last Frame,
     /// for delayed display.
     void see(const frame::Frame& last) noexcept;
     /// Starts a state, in a new trial or in the running trial. Its display applies until the next
     /// state starts, including the time between trials.
     void enter(int state, const TaskPlan::Looks& looks, bool new_trial) noexcept;
-    /// Adds the display commands to `out`. To be called when `out` already contains the targets and
-    /// the visual map.
+    /// Adds the display commands to `out`. Must be called when `out` already contains the targets
+    /// and the visual map.
     void order(double now, frame::TaskFrame& out) noexcept;
 
   private:

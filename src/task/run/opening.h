@@ -19,8 +19,8 @@ class Opening {
     /// `plan` must outlive this object.
     explicit Opening(const TaskPlan& plan) : plan_(plan) {}
 
-    /// Whether the block's opening is over, so that the trial can start. To be called in each tick
-    /// before the trial. `rests` tells whether the block's break takes place; `key` is the key
+    /// Whether the block's opening is over, so that the trial can start. Must be called in each
+    /// tick before the trial. `rests` tells whether the block's break takes place; `key` is the key
     /// pressed since the last tick, or 0.
     bool over(const Trial& next, bool rests, char key, double now) noexcept;
     /// Whether an opening is in progress. If so, the trial that follows it is the next trial.

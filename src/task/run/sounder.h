@@ -17,7 +17,7 @@ class Sounder {
     }
     /// Notes that a state is left through this transition.
     void take(const TaskPlan::Transition& transition) noexcept { once_ |= transition.sounds; }
-    /// Adds the sound commands to `out`. To be called once in each tick, at its end. `planned` is
+    /// Adds the sound commands to `out`. Must be called once in each tick, at its end. `planned` is
     /// the trial's current state, or null if there is none.
     void order(const TaskPlan::PlannedState* planned, frame::TaskFrame& out) noexcept;
 

@@ -28,7 +28,7 @@ class TaskDirector {
     void operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
                     frame::Commands& commands) noexcept;
 
-    /// Queues a key that the operator has pressed, to be read in a tick. To be called from one
+    /// Queues a key that the operator has pressed, to be read in a tick. Must be called from one
     /// thread only.
     void press(char key) noexcept { keys_.push(key); }
     /// Passes on a click on the line of a question. May be called from any thread.
@@ -41,9 +41,9 @@ class TaskDirector {
     /// any thread.
     void skip() noexcept { skip_.store(true, std::memory_order_relaxed); }
     /// Makes the director ask `between` for a decision before each attempt. `between` must outlive
-    /// the director. To be called before the first tick.
+    /// the director. Must be called before the first tick.
     void decide_by(TrialControl& between) noexcept;
-    /// Restarts a running trial. To be called between two ticks.
+    /// Restarts a running trial. Must be called between two ticks.
     void interrupt() noexcept {
         if (!queue_.empty() && state_ >= 0) queue_.again();
         state_ = -1;
@@ -54,7 +54,7 @@ class TaskDirector {
     /// The numbers in the trials so far, including a record of formulas that had to be kept within
     /// bounds.
     const TrialNumbers& numbers() const noexcept { return numbers_; }
-    /// What keeps a body from being placed at its start pose. To be called between ticks.
+    /// What keeps a body from being placed at its start pose. Must be called between ticks.
     struct Obstacle {
         int body = -1;    ///< index of the body; -1 if there has been no obstacle so far
         int finger = -1;  ///< index of the finger in the way; -1 if a finger presses the body
