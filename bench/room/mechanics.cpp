@@ -420,7 +420,7 @@ Energy energy_of_chain(const Bench& bench, double angle) {
         world.step(kStep);
         double energy = level;
         for (const dynamics::BodyState& s : world.states()) {
-            // velocities, and here heights, are those of the middle of the step
+            // velocities, and here also heights, are those of the middle of the step
             energy += energy_of_link(s.X_WB.p.z() - kStep / 2 * s.v_WB.z(), s.v_WB,
                                      s.X_WB.R.conjugate() * s.w_WB);
         }

@@ -153,7 +153,7 @@ void TreeBuilder::check_single(const Place& place) const {
     throw Error(place, "",
                 "a second YAML document starts here (after '---', or after a bracket that closed "
                 "the first)",
-                "Keep one document a file.");
+                "Keep one document per file.");
 }
 
 /// Checks the number of nodes and the depth of nesting; `height` is the number of levels below the
@@ -285,7 +285,7 @@ bool is_yaml_number(std::string_view word) {
 }
 
 void emit_text(const std::string& text, YAML::Emitter& out) {
-    // YAML 1.1 treats these two characters as line ends
+    // YAML 1.1 treats these two characters as line endings
     if (text.find("\u2028") != std::string::npos || text.find("\u2029") != std::string::npos)
         out << YAML::EscapeNonAscii << YAML::DoubleQuoted;
     else if (reads_otherwise(text))

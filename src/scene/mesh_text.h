@@ -1,4 +1,4 @@
-// Cleans up real-world mesh files, which may have byte order marks, old line ends, capitals,
+// Cleans up real-world mesh files, which may have byte order marks, old line endings, capitals,
 // comments after numbers or spare bytes, or may lack a count. The mesh reader neither handles nor
 // reports any of these.
 #pragma once

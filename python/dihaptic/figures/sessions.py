@@ -244,8 +244,8 @@ class Sittings:
 def named_apart(sittings: list[Sitting]) -> list[Sitting]:
     """The sittings with names of their own.
 
-    Simulated people with the same name who were drawn from different seeds have the seed in their names; likewise,
-    sessions have parts of their paths. A person in several groups counts as one person.
+    Simulated people with the same name who were drawn from different seeds have the seed in their names; likewise, parts of
+    their paths are in the names of sessions. A person in several groups counts as one person.
     """
     names = _names_of([sitting.session.folder for sitting in sittings])
     sittings = [replace(sitting, name=name) for sitting, name in zip(sittings, names)]

@@ -29,7 +29,7 @@ _MOST_NOTES = 6
 def models_table(fits: pd.DataFrame, single: bool) -> pd.DataFrame:
     """The parameters of fits.csv, with a row for each group and round.
 
-    They have their intervals for a `single` person, and are medians with quartiles for several people.
+    For a `single` person, they are given with their intervals; for several people, as medians with quartiles.
     """
     rows = []
     several = fits["group"].nunique() > 1

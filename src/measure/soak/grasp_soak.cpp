@@ -20,7 +20,7 @@ namespace {
 enum class Family {
     chosen_on,    ///< the grasps for which newton's starts were chosen
     other_seed,   ///< different random draws from the same ranges
-    other_grips,  ///< squeezed by 2 to 30 mm, pushed in gusts, and held by fingers further off
+    other_grips,  ///< squeezed by 2 to 30 mm, pushed in gusts, and held by fingers farther off
                   ///< centre
 };
 constexpr auto enum_names(Family) {
