@@ -180,8 +180,8 @@ void check_whole(Found& found) {
     if (!found.problems.empty()) throw Error(found.problems);
     if (found.unsealed.empty()) return;
     fmt::print(
-        "note: {} no seal, because {} version made none: later changes in their tables are not "
-        "visible\n",
+        "note: {} no seal, because {} version made none: later changes to their tables cannot be "
+        "noticed\n",
         found.unsealed.size() == 1 ? found.unsealed[0] + " has" : "these sessions have",
         found.unsealed.size() == 1 ? "its" : "their");
 }
@@ -202,7 +202,7 @@ void print_command(const Wanted& wanted, const std::vector<int>& shards) {
     const auto command = command_of(wanted.folder, wanted.rehearsal);
     if (!command) {
         fmt::print(
-            "to complete these: repeat the command by which they were rehearsed; the one in "
+            "to complete these, repeat the command that rehearsed them; the one in "
             "{}/rehearsal.yaml was not written by dihaptic\n",
             mended(wanted.folder, Lines::one));
         return;
@@ -407,9 +407,9 @@ void add_collect(CLI::App& app) {
         ->add_option("FOLDER", options->folders, "folders of dihaptic rehearse, or a study's file")
         ->required();
     command->add_option("--out", options->out, "folder for the tables; default: the first one");
-    command->add_flag("--join-seeds", options->join_seeds,
-                      "folders may have different seeds: the column 'seed' tells their people "
-                      "apart");
+    command->add_flag(
+        "--join-seeds", options->join_seeds,
+        "folders may have different seeds; the column 'seed' tells their people apart");
     command->add_option("--rehearsed", study->rehearsed,
                         "with a study: the folder of its rehearsal, in place of its participants");
     command->add_flag("--reveal-groups", study->reveal_groups,

@@ -105,7 +105,9 @@ void add_export(CLI::App& app) {
                         "with a study: the folder of its rehearsal, in place of its participants");
     command->add_flag("--reveal-groups", options->study.reveal_groups,
                       "with --psych-ds: show the names of concealed groups; this is logged");
-    command->add_option("-o,--out", options->out, "the CSV file; default: SESSION_curves.csv, here")
+    command
+        ->add_option("-o,--out", options->out,
+                     "the CSV file; default: SESSION_curves.csv, in this folder")
         ->needs(csv);
     command->footer(
         "\nExamples:\n"

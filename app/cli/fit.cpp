@@ -88,7 +88,7 @@ std::vector<model::AdaptationTrial> read_trials(const CsvFile& table) {
         const std::string clamp = table.text(i, "clamp");
         if (clamp != "0" && clamp != "1") {
             throw Error(table.place(i), "clamp", fmt::format("is '{}'", clamp),
-                        "Write 1 if no error was shown, whatever the person did, and 0 elsewhere.");
+                        "Write 1 if no error was shown, whatever the person did, and 0 otherwise.");
         }
         // in a clamp trial, nothing is learned from the perturbation
         const double perturbation = clamp == "1"

@@ -50,7 +50,8 @@ void add_gui(CLI::App& app) {
     command->add_option("FILE", options->files,
                         "scene or experiment, or folders of recorded sessions, of which two are "
                         "shown side by side; without any, a start page is shown");
-    command->add_option("--out", options->out, "folder for session folders")->capture_default_str();
+    command->add_option("--out", options->out, "folder in which sessions' folders are made")
+        ->capture_default_str();
     command->add_option("--sync", options->sync, "as in dihaptic run [s]")
         ->check(CLI::Range(0.05, 3600.0));
     command->footer(

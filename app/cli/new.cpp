@@ -113,7 +113,7 @@ fs::path file_place_of(const std::string& kind, const std::string& path) {
     const fs::path file = place_of(kind, path);
     if (file.extension() == ".yaml") return file;
     throw Error({path, 0}, "", "has no name that ends in .yaml",
-                fmt::format("Name it so: dihaptic new {} {}.yaml.", kind,
+                fmt::format("Give it such a name: dihaptic new {} {}.yaml.", kind,
                             fs::path(path).replace_extension().string()));
 }
 

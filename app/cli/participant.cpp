@@ -233,7 +233,7 @@ void withdraw(const ParticipantOptions& options) {
     if (!member.takes_part() && had_name && !options.delete_data) return;
     if (!member.takes_part() && (member.data_deleted || !options.delete_data)) {
         throw Error({"participant", 0}, member.id, fmt::format("withdrew on {}", member.withdrawn),
-                    "Nothing is left to do.");
+                    "There is nothing left to do.");
     }
     const auto recordings = options.delete_data ? session::deletable(study, member) : "";
     study::log(study, "withdraw", member.id,
@@ -263,7 +263,7 @@ void accept(const ParticipantOptions& options) {
         throw Error({options.file, 0}, "",
                     versions.empty() ? "has no version yet: nobody has been added"
                                      : "has not changed since its last version",
-                    "Nothing is left to do.");
+                    "There is nothing left to do.");
     }
     study::log(study, "version", "",
                fmt::format("{}: {}; {}", versions.size() + 1, options.reason, what));
@@ -325,7 +325,7 @@ void add_withdrawing(CLI::App& parent, const Shared& options) {
                    "my-study.yaml S07 --keep-data --reason \"did not come back\"", true);
     auto* data = command->add_option_group("data", "what happens to the participant's recordings");
     data->add_flag("--keep-data", options->keep_data, "recordings stay");
-    data->add_flag("--delete-data", options->delete_data, "recordings are deleted for ever");
+    data->add_flag("--delete-data", options->delete_data, "recordings are deleted permanently");
     data->require_option(1);
     command->add_option("--reason", options->reason, "reason, for the log");
     add_key(*command, options, "the name is deleted from this file");

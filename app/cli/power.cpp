@@ -78,34 +78,40 @@ void add_power(CLI::App& app) {
     auto options = std::make_shared<PowerOptions>();
     command
         ->add_option("EXPERIMENT|FOLDER", options->file,
-                     "the experiment's file, of which a pool of people is rehearsed; or the "
-                     "folder of a rehearsal, which is then the pool")
+                     "experiment, which a pool of simulated people does first; or the folder "
+                     "of a rehearsal, whose people are then the pool")
         ->required();
     command
         ->add_option("--effect", options->effect,
                      "expression over its tables: a value of each person, which is compared with "
-                     "zero, or one group's value less another's")
+                     "zero, or one group's value minus another's")
         ->required();
-    command->add_option("--n", options->n, "numbers of people who are recruited, in each group")
+    command
+        ->add_option("--n", options->n,
+                     "numbers of people recruited in each group, separated by commas")
         ->delimiter(',')
         ->capture_default_str();
-    command->add_option("--people", options->people, "people of the pool")->capture_default_str();
-    command->add_option("--draws", options->draws, "samples of each size")->capture_default_str();
-    command->add_option("--test", options->test,
-                        "t, wilcoxon or, of two groups, welch; default: t, and welch of groups");
-    command->add_option("--alpha", options->alpha, "level of the test, which is two-sided")
+    command->add_option("--people", options->people, "number of people in the pool")
+        ->capture_default_str();
+    command->add_option("--draws", options->draws, "number of samples of each size")
+        ->capture_default_str();
+    command->add_option(
+        "--test", options->test,
+        "t, wilcoxon or, for two groups, welch; default: t, or welch for two groups");
+    command->add_option("--alpha", options->alpha, "significance level of the two-sided test")
         ->capture_default_str();
     command
-        ->add_option("--ratio", options->ratio, "people of the second group for one of the first")
+        ->add_option("--ratio", options->ratio,
+                     "number of people in the second group for one in the first")
         ->capture_default_str();
     command->add_option("--attrition", options->attrition, "share of people who drop out")
         ->capture_default_str();
     command->add_option("--population", options->population,
-                        "file of the population; default: the shipped one");
-    command->add_option("--seed", options->seed, "of the people and of the samples")
+                        "population file; default: the program's own");
+    command->add_option("--seed", options->seed, "seed of the people and of the samples")
         ->capture_default_str();
     command->add_option("--jobs", options->jobs,
-                        "people at a time; default: one on each processor");
+                        "number of people at a time; default: one on each processor");
     command->add_option("--out", options->out, "folder of the results; default: power/NAME_SEED");
     command->footer(
         "\nA folder in it, named after the effect, gets power.html, a page for a preregistration; "

@@ -192,7 +192,7 @@ void print_next(const RehearseOptions& options, const Shard& shard) {
         const bool all = shard.of == 1;
         fmt::print("complete: {}{}\nnext{}: dihaptic collect {}\n", options.out,
                    all ? "" : fmt::format(", shard {}/{}", shard.number, shard.of),
-                   all ? "" : ", when the other shards are", shell_file(options.out));
+                   all ? "" : ", when the other shards are complete", shell_file(options.out));
     } else {
         fmt::print(
             "some people are still missing from {}: "
@@ -275,9 +275,10 @@ void rehearse(RehearseOptions& options) {
 }
 
 constexpr const char* kFooter =
-    "\nA folder holds one experiment, seed and population; a rehearsal of another one is "
-    "refused.\nCompleted people are not repeated: after a break, the same command "
-    "continues.\nResults are identical to the byte for any --jobs, --shard and --slurm.\n--slurm "
+    "\nA folder holds one experiment, one seed and one population; a rehearsal with another is "
+    "refused.\nPeople who are complete are not repeated: after an interruption, the same command "
+    "continues.\nResults are identical, byte for byte, with any --jobs, --shard and "
+    "--slurm.\n--slurm "
     "checks all files, then writes slurm.sh into the folder and submits it with sbatch. "
     "collect\nlists the shards with missing people, and the command that completes "
     "them.\n\nExamples:\n  dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 "

@@ -499,7 +499,7 @@ void add_run(CLI::App& app) {
     add_simulated_person(command, options);
     add_participant_facts(command, options);
     command->add_option("--despite", options->despite,
-                        "reason to begin a session of a study against the study's rules");
+                        "reason for beginning a session of a study against the study's rules");
     add_physics(command, options);
     command->add_option("--rate", options->rate, "ticks per second [Hz]")->check(rate_range());
     command
@@ -507,12 +507,12 @@ void add_run(CLI::App& app) {
                      "virtual: as fast as possible, with identical results every time; real: real "
                      "time; default: virtual, or real with real devices")
         ->check(CLI::IsMember({"virtual", "real"}));
-    command->add_option("--out", options->run.out, "folder for session folders")
+    command->add_option("--out", options->run.out, "folder in which sessions' folders are made")
         ->capture_default_str();
     command
         ->add_option("--sync", options->run.sync,
                      "interval at which the recording is synchronised to the disk [s]: the most "
-                     "that a loss of power can cost; default: only at the session's end")
+                     "that a power cut can destroy; default: only at the session's end")
         ->check(CLI::Range(0.05, 3600.0));
     command->add_option("--seed", options->request.seed, "seed of all random numbers")
         ->check(seed_range())

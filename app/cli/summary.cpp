@@ -191,7 +191,8 @@ void print_summary(const session::Recorded& session, const session::Plan& plan) 
                    plan.settings.tick() * 1e6, describe(timing),
                    counted(timing.overruns, "overrun"));
     fmt::print("\n");
-    if (session.interrupted) fmt::print("interrupted: the part until then is complete\n");
+    if (session.interrupted)
+        fmt::print("interrupted: the recording is complete up to that moment\n");
     fmt::print("{}\n", session.info.moved_by.describe());
     fmt::print("session: {}\n", session.folder);
 }

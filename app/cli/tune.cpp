@@ -73,8 +73,8 @@ void add_tune(CLI::App& app) {
         ->capture_default_str();
     add_json(*command, options->json);
     command->footer(
-        "\nA simulated hand holds a block at each stiffness and damping, also under burdens "
-        "that may occur: a tick more\ndelay, a block of 10 g, a loose and a firm hand. It takes "
+        "\nA simulated hand holds a block at each stiffness and damping, also under harder "
+        "conditions: one more tick of\ndelay, a block of 10 g, a loose and a firm hand. It takes "
         "about a minute.\n\nExamples:\n  dihaptic tune experiments/lift-block.yaml\n  dihaptic "
         "tune "
         "scenes/block-on-table.yaml --rig rigs/premium-pair.yaml --map premium.svg");

@@ -61,7 +61,7 @@ void add_video(CLI::App& app) {
     add_view_options(*command, options);
     command->add_option("-o,--out", options->out, "the video, an MP4 file")->capture_default_str();
     command->footer(
-        "\nThe video's time is the session's. This command requires the Debian package "
+        "\nThe video runs at the session's speed. This command requires the Debian package "
         "ffmpeg.\n\nExample:\n  "
         "dihaptic video sessions/2026-11-20_101500_lift-block --show forces -o lift.mp4");
     command->callback([options] { make_video(*options); });

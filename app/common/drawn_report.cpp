@@ -69,7 +69,7 @@ void draw_page(const analysis::ReportResult& result, const std::string& command,
     if (python.wait() == 0) return;
     const std::string words = says == PythonSays::in_error ? last_words_in(said) : "";
     throw no_page(folder, "Python did not draw it",
-                  words.empty() ? "The lines above this one name the reason." : words);
+                  words.empty() ? "The lines above this one give the reason." : words);
 }
 
 }  // namespace dihaptic::app

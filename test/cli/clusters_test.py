@@ -94,7 +94,7 @@ class Slurm(InShards):
         self.assertIn(f"dihaptic collect '{self.out}'\n", result.stdout)
         self.assertEqual(self.submitted(), ["1-8"])
         said = pathlib.Path(self.out, "slurm/2.log").read_text()
-        self.assertIn(f"complete: {self.out}, shard 2/8\nnext, when the other shards are: dihaptic collect", said)
+        self.assertIn(f"complete: {self.out}, shard 2/8\nnext, when the other shards are complete: dihaptic collect", said)
         result = collect(self.out)
         self.assertEqual(result.returncode, 1)
         self.assertEqual(re.findall("missing: .*", result.stdout), ["missing: shard 3/8: sim-011 (not ended)"])

@@ -61,7 +61,7 @@ class Power(unittest.TestCase):
         few, many = (find_effect(wide, sizes, 4000, "welch", 0.05, 1).power for sizes in ([10, 20], [20, 10]))
         self.assertGreater(many, few + 0.1)
         said = dihaptic("power", "--help").stdout
-        self.assertRegex(re.sub(r"\s+", " ", said), "people of the second group for one of the first")
+        self.assertRegex(re.sub(r"\s+", " ", said), "number of people in the second group for one in the first")
 
     def test_groups_may_differ_in_spread_and_in_size(self):
         rng = np.random.default_rng(1)

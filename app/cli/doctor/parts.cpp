@@ -35,7 +35,7 @@ Finding reports(const std::string& python, const std::string& shipped) {
             Verdict::ok, "Python", "the package dihaptic draws reports; it is in " + python, {}};
     return {Verdict::lacks,
             "Python",
-            "the package dihaptic is missing, which draws the pages and figures of reports",
+            "the package dihaptic, which draws the pages and figures of reports, is missing",
             {is_package(shipped) ? "sudo apt install python3-dihaptic"
                                  : "./dev build    # in Dihaptic's own folder"}};
 }
@@ -68,7 +68,7 @@ Findings parts(const std::function<std::string(const std::string&)>& companion,
         if (companion(part.program).empty()) {
             out.push_back({Verdict::lacks,
                            name,
-                           fmt::format("{} is missing, which {}", part.program, part.what),
+                           fmt::format("{}, which {}, is missing", part.program, part.what),
                            {is_package(shipped) ? "sudo apt install --reinstall dihaptic"
                                                 : "./dev build    # in Dihaptic's own folder"},
                            part.needed});
