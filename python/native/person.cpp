@@ -37,7 +37,7 @@ class PythonHand : public task::SeeingDriver {
 
     void lead(size_t finger, const Vec3& position, const Vec3& velocity) {
         if (finger >= led_.size() || !position.allFinite() || !velocity.allFinite())
-            throw Error("a finger cannot be led there", "Give three finite numbers.");
+            throw Error("a finger cannot be moved there", "Give three finite numbers.");
         led_[finger].emplace();
         led_[finger]->p_WT = position;
         led_[finger]->v_WT = velocity;
@@ -102,7 +102,7 @@ class Sitting {
                     "Name an experiment with trials.");
     }
 
-    /// The place of the trials, and their person.
+    /// The person who does the trials, and the files and sockets of the session.
     struct Doing {
         std::string name;     ///< name of the person's class
         std::string traits;   ///< text of person.yaml

@@ -175,7 +175,7 @@ class World {
         check("torque", torque);
         constexpr double kMost = 1e4;
         if (force.norm() > kMost || torque.norm() > kMost)
-            throw Error("the push is too hard", "Give at most 10 000 N, or N*m.");
+            throw Error("the push is too strong", "Give at most 10 000 N, or N*m.");
         std::erase_if(loads_, [&](const auto& load) { return load.body == body; });
         if (force == Vec3::Zero() && torque == Vec3::Zero()) return;
         if (loads_.size() == frame::TaskFrame::kMostLoads) throw too_many("pushes");

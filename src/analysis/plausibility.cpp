@@ -57,8 +57,8 @@ std::vector<std::string> Plausibility::findings() const {
     if (jumped_.way > kFastest * tick_)
         out.push_back(
             fmt::format("'{}' jumped by {:.3g} mm in one tick at {:.3f} s, when a drive moved it: "
-                        "displacements are measured from where it was when the state began, so let "
-                        "'along' begin at 0 then (use time_in_state, not time_in_trial)",
+                        "displacements are measured from where it was when the state began, so "
+                        "'along' has to begin at 0 then (use time_in_state, not time_in_trial)",
                         bodies_[jumper_], 1e3 * jumped_.way, jumped_.time));
     return out;
 }

@@ -75,8 +75,7 @@ std::vector<std::string> write_psych_ds(const PsychDs& data, const std::string& 
         if (!table.rows.empty()) tables.push_back(table);
     }
     if (tables.empty())
-        throw Error({folder, 0}, "", "would be a data set without data",
-                    "Run or rehearse a session first.");
+        throw Error({folder, 0}, "", "would contain no data", "Run or rehearse a session first.");
     const fs::path whole = (fs::path(folder) / "").parent_path();
     if (fs::exists(fs::symlink_status(whole)))
         throw Error({folder, 0}, "", "exists",

@@ -415,7 +415,7 @@ void keep_longer_files(const recording::SessionFolder& folder, const SessionFigu
                             {folder.file(name), 0},
                             "",
                             "contains more than the log now yields: " + what,
-                            "Move it away first to have it replaced."});
+                            "To have it replaced, first move it away."});
     };
     const int64_t ticks = recording::ticks_in_nwb(folder);
     if (ticks > figures.frames) {

@@ -37,7 +37,7 @@ std::string make_room(int error) {
                    "), so copy the folder to another disk";
         case EIO:
         case EROFS:
-            return "the disk fails, so copy the folder to another one";
+            return "the disk is failing, so copy the folder to another one";
         default:
             return "free some space";
     }

@@ -413,7 +413,7 @@ bool FieldReader::is_mapping(const Node& node, const std::string& key) {
     if (node.kind == Node::Kind::mapping) return true;
     diagnostics_.error(node.place, key, "must have keys of its own",
                        node.place.line > 0
-                           ? "Write them below it, indented, one 'key: value' a line."
+                           ? "Write them below it, indented, one 'key: value' per line."
                            : fmt::format("Name one of them: {}.KEY=VALUE.", key));
     return false;
 }

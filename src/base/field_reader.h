@@ -169,7 +169,7 @@ void read_fields(Struct& value, const Node& mapping, Diagnostics& diagnostics,
                  Origins* origins = nullptr) {
     if (mapping.kind != Node::Kind::mapping) {
         diagnostics.error(mapping.place, "", "is not a list of keys and values",
-                          "Write one 'key: value' a line.");
+                          "Write one 'key: value' per line.");
         return;
     }
     FieldReader(mapping, diagnostics, origins).read_whole(value);

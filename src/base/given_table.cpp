@@ -60,7 +60,7 @@ GivenTable::GivenTable(std::string_view text, std::string file, size_t begin)
     rest_ = text;
     if (text.find('\n') == std::string_view::npos && text.find('\r') != std::string_view::npos)
         throw Error({file_, 0}, "", "its lines end in CR only, as on old Macs",
-                    "Save it with LF or CR LF line ends.");
+                    "Save it with LF or CR LF line endings.");
     // Microsoft's spreadsheets write such a line and expect it
     const std::string_view first = trimmed(text.substr(0, text.find_first_of("\r\n")));
     if (first.starts_with("sep=") && first.size() == 5) {

@@ -133,7 +133,7 @@ void make_folders(const std::string& root, const std::string& below) {
     }
     if (!failed && fs::is_directory(folder, failed)) return;
     throw Error({folder.string(), 0}, "",
-                "cannot be made: " + (failed ? failed.message() : "a file has its name"),
+                "cannot be made: " + (failed ? failed.message() : "a file has that name"),
                 "Name another folder, or check its permissions.");
 }
 

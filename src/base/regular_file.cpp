@@ -36,7 +36,7 @@ RegularFile::RegularFile(const std::string& file)
     }
     if (S_ISDIR(status.st_mode)) throw Error({file, 0}, "", "is a folder", "Name a file in it.");
     throw Error({file, 0}, "", "is not a file, but a pipe, a socket or a device",
-                "Replace it by a file with a copy of its output.");
+                "Replace it with a file that contains a copy of its output.");
 }
 
 void RegularFile::look_again() {

@@ -177,7 +177,7 @@ constexpr StatusRow kStatusTable[] = {
      "let it cool, switch it off and on",
      {{FaultKind::device_fault, "{device}reports a fault of its own"}}},
     {kKeepsLate,
-     "ticks came late again and again",
+     "ticks kept coming late",
      "close other programs, or lower the rate or the stiffness",
      {{FaultKind::keeps_late,
        "so many ticks came late, {value_ms:.0f} ms on average, that not even {limit:g} N/m could "

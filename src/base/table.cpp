@@ -161,13 +161,13 @@ std::vector<std::vector<std::string>> read_csv(const std::string& file) {
         if (!rows.empty() && rows[0].size() == 1 && rows[0][0].find(separator) != std::string::npos)
             throw Error({file, 1}, "",
                         fmt::format("is separated by {}: another program has saved it", name),
-                        "Replace it by a backup; dihaptic recover makes a session's tables "
-                        "again from raw.log.");
+                        "Replace it with a backup; dihaptic recover rebuilds a session's tables "
+                        "from raw.log.");
     }
     if (rows.empty()) {
-        throw Error({file, 0}, "", "is empty: even the line that names its columns is missing",
-                    "Replace it by a backup; dihaptic recover makes a session's tables "
-                    "again from raw.log.");
+        throw Error(
+            {file, 0}, "", "is empty: even the line that names its columns is missing",
+            "Replace it with a backup; dihaptic recover rebuilds a session's tables from raw.log.");
     }
     return rows;
 }

@@ -18,8 +18,8 @@ void check_distinct(const std::vector<DeviceConfig>& configs, const char* key,
             if (values[i] != values[j]) continue;
             diagnostics.error(
                 configs[i].place, key,
-                fmt::format("'{}' also belongs to the {}'s device", values[i], configs[j].finger),
-                "Each device has its own value.");
+                fmt::format("'{}' is also given for the {}'s device", values[i], configs[j].finger),
+                "Give each device its own value.");
         }
     }
 }
@@ -29,7 +29,7 @@ void check_one_library(const std::vector<DeviceConfig>& configs,
     for (size_t i = 0; i < libraries.size(); ++i) {
         if (libraries[i] == libraries.front()) continue;
         diagnostics.error(configs[i].place, "library", "differs from the first device's",
-                          "One library serves all devices of a rig.");
+                          "Give the same library for all devices of a rig.");
     }
 }
 

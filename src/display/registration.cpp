@@ -76,7 +76,7 @@ std::string describe(const RegistrationResult& result) {
     return fmt::format(
         "the screen is {:.2f} mm from its position in the rig file and turned by {:.2f} degrees\n"
         "its size agrees with the file's to {:.1f} %\n"
-        "touches deviate from their crosses by {:.2f} mm rms, {:.2f} mm at worst\n",
+        "touches deviate from their crosses by {:.2f} mm rms, and by {:.2f} mm at most\n",
         1e3 * result.moved, result.turned / kDegree, 100 * std::abs(result.stretch),
         1e3 * result.registration.rms, 1e3 * result.registration.worst);
 }

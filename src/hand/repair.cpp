@@ -346,8 +346,8 @@ std::string describe(const Fault& fault, const std::vector<std::string>& fingers
         text += fmt::format(", {:.1f} mm apart", fault.distance * 1e3);
     if (fault.wrong_unit)
         text +=
-            "; its values are a thousandth of their neighbours': if in metres, multiply them by "
-            "1000";
+            "; its values are a thousandth of their neighbours': if they are in metres, multiply "
+            "them by 1000";
     return text;
 }
 

@@ -50,7 +50,7 @@ void ScriptDriver::add(const ScriptStep& step, const std::vector<std::string>& f
     segment.steady = step.steady;
     if (step.steady && !step.end_velocity.isZero()) {
         throw Error(step.place, "end_velocity",
-                    fmt::format("'{}' is steady, so its speed is constant", step.name),
+                    fmt::format("'{}' is 'steady', so its speed is constant", step.name),
                     "Leave out one of the two.");
     }
     for (const std::string& name : step.fingers) {

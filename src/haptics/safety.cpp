@@ -87,7 +87,8 @@ std::string describe(const Fault& fault, const std::string& finger, const std::s
         fmt::arg("back_ms", -fault.value * 1e3));
     std::string remedy(text.remedy);
     remedy[0] = static_cast<char>(std::toupper(remedy[0]));
-    return fmt::format("force is off since {:.3f} s: {}. {}.", seconds(fault.time), what, remedy);
+    return fmt::format("force has been off since {:.3f} s: {}. {}.", seconds(fault.time), what,
+                       remedy);
 }
 
 }  // namespace dihaptic::haptics

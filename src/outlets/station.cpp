@@ -55,7 +55,7 @@ void Station::call(Line& line, const Call& call) {
         call(*line.outlet);
     } catch (const Error& e) {
         failures_.push_back(
-            fmt::format("{}: {} From here on no data were exchanged with it; all event codes "
+            fmt::format("{}: {} From then on no data were exchanged with it; all event codes "
                         "are in events.csv.",
                         line.kind, e.what()));
         line.outlet.reset();

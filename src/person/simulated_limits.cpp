@@ -87,9 +87,9 @@ void warn_of_shifts(const task::TaskPlan& plan, std::vector<Problem>& out) {
     };
     for (const task::PerturbationSpec* perturbation : perturbations_with(plan, shifts)) {
         out.push_back({Severity::warning, perturbation->place, perturbation->name,
-                       "shifts what is shown: simulated people correct a shift that appears within "
-                       "a reach, by about as much as people do, but learn nothing from it, so that "
-                       "any change over trials is arbitrary",
+                       "shifts what is shown: simulated people correct a shift that appears during "
+                       "a reach about as much as people do, but learn nothing from it, so that any "
+                       "change over trials is arbitrary",
                        kRemedy});
     }
 }
@@ -172,11 +172,11 @@ void warn_of_pushes(const task::TaskPlan& plan, std::vector<Problem>& out) {
         const auto pushes = [](const task::MotorSpec& motor) { return !motor.push.empty(); };
         const auto motor = std::ranges::find_if(state.motors, pushes);
         if (motor == state.motors.end()) continue;
-        out.push_back({Severity::warning, motor->place, state.name,
-                       "pushes with a motor: simulated people do not judge forces, so that what "
-                       "they do in answer is the same whatever the force, and measures of it are "
-                       "arbitrary",
-                       kRemedy});
+        out.push_back(
+            {Severity::warning, motor->place, state.name,
+             "pushes with a motor: simulated people do not judge forces, so they respond in the "
+             "same way whatever the force, and measures of their response are arbitrary",
+             kRemedy});
         return;  // one warning is enough, because it concerns the people, not this motor
     }
 }

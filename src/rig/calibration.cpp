@@ -75,8 +75,9 @@ void check_movement(const CalibrationInput& input, const CalibrationSolver& solv
     }
     const double least = Eigen::SelfAdjointEigenSolver<Mat3>(turned).eigenvalues()[0];
     if (least < kLeastTurned) {
-        throw Error("the link pointed nearly the same way all the time, or stayed in one plane",
-                    "Turn the link while moving it: along the table to all sides, and upright.");
+        throw Error(
+            "the link pointed nearly the same way all the time, or stayed in one plane",
+            "Turn the link while moving it: along the table in all directions, and upright.");
     }
 }
 

@@ -46,7 +46,8 @@ class CalibrationWay {
             fmt::format("Join the endpoints of {} with the link, and fasten it.", pair(other)));
         steps_.wait();
         steps_.begin_step(
-            "Move the link through all of the workspace, turning it to all sides, for a minute.");
+            "Move the link through all of the workspace, turning it in all directions, for a "
+            "minute.");
         size_t taken = 0;
         bool too_soon = false;
         steps_.sample([&](bool said) {
@@ -59,7 +60,7 @@ class CalibrationWay {
             steps_.tell(share,
                         fmt::format("{:.0f} mm deep, {:.0f} needed; {} samples{}", depth * 1e3,
                                     kLeastDepth * 1e3, taken,
-                                    too_soon && share < 1 ? ": go on, that is not enough" : ""));
+                                    too_soon && share < 1 ? ": continue, that is not enough" : ""));
             return !said || share < 1;
         });
     }
@@ -79,7 +80,7 @@ class CalibrationWay {
     }
     void hold(size_t other) {
         steps_.begin_step(fmt::format(
-            "Take the link away. Hold the endpoints of {} together, as at each session's start.",
+            "Remove the link. Hold the endpoints of {} together, as at each session's start.",
             pair(other)));
         while (true) {
             steps_.wait();

@@ -94,7 +94,7 @@ std::string describe(const RealTime::Refusals& refusals, int priority, bool root
     if (refused.empty()) return "";
     return fmt::format("real time: Linux refused {}, so ticks may come late; dihaptic doctor {}",
                        fmt::join(refused, ", "),
-                       root ? "explains how to start a container with these permissions"
+                       root ? "shows how to start a container with these permissions"
                             : "gives the commands that allow it");
 }
 

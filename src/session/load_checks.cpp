@@ -102,8 +102,8 @@ class LoadChecks {
         }
         if (info.damping > 0 && demand.driving > info.damping) {
             warn(load, "damping",
-                 fmt::format("{} drives the hand on by {:.4g} N*s/m, more than the {:g} N*s/m that "
-                             "the hand's own damping absorbs: it runs away",
+                 fmt::format("{} pushes the hand on with {:.4g} N*s/m, more than the {:g} N*s/m "
+                             "that the hand's own damping absorbs: the hand runs away",
                              a(load), demand.driving, info.damping),
                  "Make it weaker.");
         }
@@ -123,16 +123,17 @@ class LoadChecks {
             const double reach = info.workspace->norm() / 2;
             if (demand.stiffness * reach > most)
                 warn(load, "force",
-                     fmt::format("{} of {:.4g} N/m reaches the {:.3g} N that {} may give at {:.0f} "
-                                 "mm, and is limited beyond: the workspace extends to {:.0f} mm",
-                                 a(load), demand.stiffness, most, info.model,
-                                 most / demand.stiffness * 1e3, reach * 1e3),
+                     fmt::format(
+                         "{} of {:.4g} N/m reaches the {:.3g} N that {} may give at {:.0f} mm, and "
+                         "is limited beyond that: the workspace extends to {:.0f} mm",
+                         a(load), demand.stiffness, most, info.model, most / demand.stiffness * 1e3,
+                         reach * 1e3),
                      "Lower its stiffness, or limit its zone with safe_within_mm.");
         }
         if (demand.springs || demand.damping * kFastReach <= most) return;
         warn(load, "damping",
              fmt::format("{} of {:.4g} N*s/m reaches the {:.3g} N that {} may give at {:.2g} m/s, "
-                         "and is limited beyond: fast reaches move at {:g} m/s",
+                         "and is limited above that: fast reaches move at {:g} m/s",
                          a(load), demand.damping, most, info.model, most / demand.damping,
                          kFastReach),
              "Lower it, or use a rig with a stronger device.");

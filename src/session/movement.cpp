@@ -155,8 +155,8 @@ std::shared_ptr<const hand::Driver> place_movement(const task::MovementSpec& spe
     block->shape.size.x() = faces.first + faces.second;
     if (block->shape.size.x() < kThinnest) {
         diagnostics.error({file, 0}, "",
-                          fmt::format("the fingers closed to {:.0f} mm, which leaves no room for a "
-                                      "block between the proxies",
+                          fmt::format("the fingers closed to {:.0f} mm, which leaves no space for "
+                                      "a block between the proxies",
                                       site->aperture * 1e3),
                           "Make the proxies thinner, or give movement: width_mm.");
         return nullptr;

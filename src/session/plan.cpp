@@ -148,8 +148,7 @@ void check_use_of_movement(const Plan& plan, const Request& request,
                            const task::Experiment& experiment, Diagnostics& diagnostics) {
     if (!experiment.movement) {
         if (request.movement.empty()) return;
-        throw Error({request.file, 0}, "movement",
-                    "this file does not define the use of a movement",
+        throw Error({request.file, 0}, "movement", "this file does not say how a movement is used",
                     "Use an experiment with 'movement:', such as experiments/reach-to-grasp.yaml.");
     }
     const Place& place = experiment.movement->place;
@@ -459,7 +458,7 @@ Plan make_rest(const std::string& session, Seat seat, recording::SessionInfo& in
     Diagnostics diagnostics;
     Plan plan = frozen_plan(folder, info, diagnostics);
     if (!any_left(plan)) {
-        throw Error({session, 0}, "", "is complete: every trial is done",
+        throw Error({session, 0}, "", "is complete: all its trials are done",
                     "Run the experiment again for another session.");
     }
     rig::check_libraries(plan.rig);

@@ -49,7 +49,7 @@ Finding calibration_of(const Plan& plan, const std::string& today) {
 Finding display_of(const display::Display& display, bool real, const std::string& today) {
     Finding out{fmt::format("display {}", display.name), "", true, Remedy::register_display, ""};
     if (!display.registered) {
-        out.found = "its corners are as given in the rig file";
+        out.found = "its corners are those given in the rig file";
         out.how = "Register the display.";
         out.good = !real;
         return out;

@@ -222,7 +222,7 @@ std::string deletable(const study::StudyFile& study, const study::Member& member
     const fs::path folder = fs::path(session_folder(study, member, 0)).parent_path();
     for (const fs::path& part : {folder.parent_path(), folder}) {
         if (!fs::is_symlink(part)) continue;
-        throw Error({part.string(), 0}, "", "is a link, through which nothing is deleted",
+        throw Error({part.string(), 0}, "", "is a link, and nothing is deleted through links",
                     "Delete the recordings where they are, then withdraw with --keep-data.");
     }
     if (!is_there(folder.string())) return "";

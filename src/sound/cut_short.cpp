@@ -30,7 +30,7 @@ std::string cut_wav(std::string_view bytes) {
             if (bytes.starts_with("RF64")) size = large;
             const uint64_t left = bytes.size() - at;
             if (size <= left) return "";
-            return fmt::format("has {} bytes of samples, but its head states {}", left, size);
+            return fmt::format("has {} bytes of samples, but its header states {}", left, size);
         }
         at += size + size % 2;
     }

@@ -85,7 +85,7 @@ std::vector<std::string> Player::finish() {
     std::vector<std::string> out = sink_->finish();
     tend();
     if (const int64_t lost = lost_.load() + sink_->mixer().left_out(); lost > 0)
-        out.push_back(fmt::format("{} left out: too many would have played at once.",
+        out.push_back(fmt::format("{} left out: too many sounds would have played at once.",
                                   lost == 1 ? "1 sound was" : fmt::format("{} sounds were", lost)));
     sink_.reset();
     return out;

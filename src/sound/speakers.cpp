@@ -41,7 +41,7 @@ class System {
         silence_systems();
         if (const PaError failed = Pa_Initialize(); failed != paNoError)
             throw Error(
-                fmt::format("The sound system does not start: {}.", Pa_GetErrorText(failed)),
+                fmt::format("The sound system cannot be started: {}.", Pa_GetErrorText(failed)),
                 "Check it with speaker-test.");
     }
     ~System() { Pa_Terminate(); }

@@ -102,7 +102,7 @@ std::string by_fact(const StudyFile& study, const Member& person,
     const std::string group = person.fact(study.allocation.fact);
     if (std::ranges::find(open, group) != open.end()) return group;
     throw Error(study.place, "groups",
-                fmt::format("have no place for {}: the group {} has all of its {} participants",
+                fmt::format("have no place for {0}: all {2} places of the group {1} are taken",
                             person.id, group, study.group(group).people),
                 "For more, raise 'people' of the group, and accept the changed file.");
 }

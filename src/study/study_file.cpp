@@ -187,7 +187,7 @@ class Checker {
             error(study_.place, "conditions",
                   fmt::format("are {}, but {} sessions name {{condition}} in their experiment",
                               study_.conditions.size(), with),
-                  "Write as many conditions as there are such sessions.");
+                  "Give as many conditions as there are such sessions.");
         constexpr size_t kMost = 8;  // 40,320 orders
         if (study_.order == task::Order::counterbalanced && study_.conditions.size() > kMost)
             error(study_.place, "order", "has more than 40,320 orders", "Use latin_square.");

@@ -64,7 +64,7 @@ void Movie::fail() {
     why = why.substr(0, why.find('\n'));
     throw Error({file_, 0}, "",
                 "ffmpeg could not make the video: " + (why.empty() ? "it ended" : why),
-                "Check that the disk has space, and that the folder is writable.");
+                "Check that the disk has free space, and that you may write to the folder.");
 }
 
 void Movie::add(const Image& image) {

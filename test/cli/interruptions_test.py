@@ -81,7 +81,7 @@ class Interruptions(unittest.TestCase):
                 stdout, _ = process.communicate(timeout=patient(60))
                 self.assertEqual(process.returncode, 1)
                 self.assertIn("Escape or Ctrl-C switches force off", stdout)
-                self.assertRegex(stdout, r"force is off since [0-9.]+ s: ")
+                self.assertRegex(stdout, r"force has been off since [0-9.]+ s: ")
                 folder = session_of(out)
                 self.assertIn("state: interrupted", pathlib.Path(folder + "session.yaml").read_text())
                 self.assertEqual(termios.tcgetattr(slave), before)

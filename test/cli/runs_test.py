@@ -27,17 +27,17 @@ class Commands(unittest.TestCase):
         with tempfile.TemporaryDirectory() as out:
             result = dihaptic("run", "scenes/block-on-table.yaml", "--out", out, "--set", "safety.max_speed_m_s=0.01")
             self.assertEqual(result.returncode, 1, result.stdout)
-            told = (r"force is off since 0\.\d+ s: the (thumb|index)'s device \(simulated plant\) moved at 0\.01\d* m/s, "
+            told = (r"force has been off since 0\.\d+ s: the (thumb|index)'s device \(simulated plant\) moved at 0\.01\d* m/s, "
                     r"but only 0\.01 m/s are allowed\. .* raise settings: safety: max_speed_m_s")
             self.assertRegex(result.stdout, "WARNING: " + told)
             folder = session_of(out)
-            self.assertIn("force is off since", pathlib.Path(folder + "session.yaml").read_text())
+            self.assertIn("force has been off since", pathlib.Path(folder + "session.yaml").read_text())
             self.assertIn("force off", pathlib.Path(folder + "trials.csv").read_text())
             self.assertIn("The last second before the fault is in fault.csv.", result.stdout)
             with open(folder + "fault.csv") as file:
                 rows = list(csv.DictReader(file))
             self.assertIn("moved faster than allowed", rows[-1]["status"])
-            self.assertIn(f"force is off since {float(rows[-1]['time_s']):.3f} s", result.stdout)
+            self.assertIn(f"force has been off since {float(rows[-1]['time_s']):.3f} s", result.stdout)
             self.assertLessEqual(float(rows[-1]["time_s"]) - float(rows[0]["time_s"]), 1)
             fault = pathlib.Path(folder + "fault.csv").read_text()
             os.remove(folder + "fault.csv")

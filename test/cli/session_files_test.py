@@ -119,7 +119,7 @@ task:
         self.assertEqual(result.returncode, 2, result.stdout)
         self.assertRegex(result.stderr, r"trials.csv: error: has 0 rows; it had \d+ rows .*: dihaptic recover")
         self.assertEqual(dihaptic("recover", session).returncode, 0)
-        self.assertIn("is complete: every trial is done", dihaptic("resume", session).stderr)
+        self.assertIn("is complete: all its trials are done", dihaptic("resume", session).stderr)
         session = self.copy()
         info = pathlib.Path(session + "/session.yaml")
         info.write_text(re.sub(r"seed: \S+", "seed: many", info.read_text()))
@@ -127,7 +127,7 @@ task:
         self.assertEqual(result.returncode, 2, result.stdout)
         self.assertIn("session.yaml: error: seal: does not match", result.stderr)
         self.assertEqual(dihaptic("recover", session).returncode, 0)
-        self.assertIn("is complete: every trial is done", dihaptic("resume", session).stderr)
+        self.assertIn("is complete: all its trials are done", dihaptic("resume", session).stderr)
         self.assertNotIn("many", info.read_text())
 
     @soak.alone

@@ -282,7 +282,7 @@ class Studies(unittest.TestCase):
         self.assertIn("4 sessions of 2 people", said.stdout)
         self.check_psych_ds(pathlib.Path(tables))
         self.refused(dihaptic("export", self.study, "--psych-ds", tables, *rehearsed), "exists")
-        self.refused(dihaptic("export", self.study, "--psych-ds", self.folder + "/none"), "without data")
+        self.refused(dihaptic("export", self.study, "--psych-ds", self.folder + "/none"), "would contain no data")
         self.refused(dihaptic("export", self.study, "--csv", "grip_force"), "curves of one session")
         # only a participant's new sessions are added
         result = dihaptic("rehearse", self.study, "--jobs", "2", "--keep-recordings", "--out", self.folder + "/kept")
@@ -398,7 +398,7 @@ class Studies(unittest.TestCase):
         facts = FACTS[:-1]
         self.assertIn("group abrupt, number 1", self.add("S01", *facts, "vision=abrupt"))
         self.assertIn("group abrupt, number 2", self.add("S02", *facts, "vision=abrupt"))
-        self.refused(self.participant("add", "S03", *facts, "vision=abrupt"), "the group abrupt has all of its 2")
+        self.refused(self.participant("add", "S03", *facts, "vision=abrupt"), "all 2 places of the group abrupt are taken")
         self.write(STUDY + "allocation: { method: fact, fact: vision }\n")
         self.refused(dihaptic("check", self.study), "are not the names of the groups",
                      "values: [gradual, abrupt]")

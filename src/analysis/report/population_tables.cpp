@@ -202,7 +202,7 @@ void add_lifts(PopulationTables& out, const std::string& title, const Sessions& 
             FigureLister row;
             row("experiment", title, "", "title");
             row("trials", group, "", "round, block, kind, condition");
-            row("figure", figure, "", "column of lifts.csv, of which each person's median is used");
+            row("figure", figure, "", "column of lifts.csv; each person's median of it is used");
             list(row, all);
             add_row(out.lifts, row);
         }
@@ -261,7 +261,7 @@ void list_measures(PopulationTables& out, const std::string& title, const Sessio
             row("group", key[0], "", "group of the study; empty: none");
             row("study_session", key[1], "", "session of the study; empty: none");
             row("measure", column.name, "",
-                "column of trials.csv, of which each person's mean is used");
+                "column of trials.csv; each person's mean of it is used");
             row("unit", column.unit, "", "its unit");
             row("round", key[2], "", "name");
             row("block", key[3], "", "name");

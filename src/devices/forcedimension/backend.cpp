@@ -78,7 +78,7 @@ Connection take(std::vector<Connection>& there, const Options& options, const Pl
     }
     if (fits.empty()) {
         throw Error(place, "serial", fmt::format("no device has serial number {}", options.serial),
-                    fmt::format("There are: {}. {}", fmt::join(all, ", "), kNobody));
+                    fmt::format("Those connected are {}. {}", fmt::join(all, ", "), kNobody));
     }
     if (fits.size() > 1 && chosen) {
         throw Error(place, "serial",
@@ -88,7 +88,7 @@ Connection take(std::vector<Connection>& there, const Options& options, const Pl
     }
     if (fits.size() > 1) {
         throw Error(place, "serial", "is needed: several devices are connected",
-                    fmt::format("There are: {}.", fmt::join(all, ", ")));
+                    fmt::format("Those connected are {}.", fmt::join(all, ", ")));
     }
     Connection out = std::move(there[fits[0]]);
     std::vector<Connection> rest;

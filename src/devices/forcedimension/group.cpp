@@ -85,7 +85,7 @@ Error Group::error(const Device& device, const std::string& doing) const {
             "Check its power and its cable, and switch it off and on."};
 }
 
-/// Sets the device's watchdog, which switches its force off when the program dies, is stopped or
+/// Sets the device's watchdog, which switches its force off when the program crashes, is stopped or
 /// hangs.
 void Group::set_watchdog(const Device& device) const {
     dhd_.enable_expert_mode();
@@ -95,7 +95,7 @@ void Group::set_watchdog(const Device& device) const {
     if (done >= 0) return;
     throw Error(device.place, "watchdog",
                 fmt::format("{} has no usable watchdog: {}", device.who, said),
-                "Without a watchdog the force may stay on when this program dies. To continue "
+                "Without a watchdog the force may stay on if this program crashes. To continue "
                 "anyway, with a hand near the device's switch, set options: watchdog: no.");
 }
 

@@ -229,8 +229,9 @@ void Connection::open(const Url& url, Time time_out) {
     const int failure =
         ::getaddrinfo(url.host.c_str(), number_text(url.port).c_str(), &hints, &found);
     if (failure != 0) {
-        throw Error(fmt::format("there is no computer {} ({})", url.host, gai_strerror(failure)),
-                    "Correct 'url': the service's default is ws://localhost:10001/.");
+        throw Error(
+            fmt::format("there is no computer named {} ({})", url.host, gai_strerror(failure)),
+            "Correct 'url': the service's default is ws://localhost:10001/.");
     }
     const std::unique_ptr<addrinfo, void (*)(addrinfo*)> addresses(found, ::freeaddrinfo);
 

@@ -10,7 +10,7 @@ namespace {
 
 /// The reason why a device cannot be used, and the remedy; both are empty if it can be used.
 std::pair<std::string, std::string> trouble(const DeviceState& state) {
-    if (state.power_supply == false) return {"has no power", "Plug its power supply in."};
+    if (state.power_supply == false) return {"has no power", "Plug in its power supply."};
     if (state.calibrated == false) {
         return {"is not calibrated", "Calibrate it according to Haply's guide."};
     }
@@ -55,7 +55,7 @@ void check_inventory(const StateMessage& message, std::span<const Wanted> device
         if (same == 0) {
             diagnostics.error(
                 device.place, "device_id",
-                fmt::format("the Inverse Service knows no Inverse3 '{}'", id),
+                fmt::format("the Inverse Service does not list an Inverse3 '{}'", id),
                 fmt::format("It lists: {}. Plug the device in, or correct the serial number.",
                             list_ids(message.devices())));
         } else if (same > 1) {

@@ -70,7 +70,7 @@ Survey survey() {
         const Connection connection(hd, {}, {});
         out.devices.push_back(
             {connection.serial(), connection.model(),
-             "the driver's first device; others have names in the driver's configuration"});
+             "the driver's first device; the driver's configuration names the others"});
     } catch (const Error& e) {
         out.missing = in_words(e);
     }

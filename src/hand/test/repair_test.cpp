@@ -168,8 +168,9 @@ TEST(Repair, SuspectsALineInMetres) {
     for (const Fault& fault : path.faults) {
         EXPECT_TRUE(fault.wrong_unit);
         EXPECT_EQ(fault.line, 61);
-        EXPECT_NE(describe(fault, path.fingers).find("if in metres, multiply them by 1000"),
-                  std::string::npos);
+        EXPECT_NE(
+            describe(fault, path.fingers).find("if they are in metres, multiply them by 1000"),
+            std::string::npos);
     }
     EXPECT_LT(error_of(path), 2e-3);
 }

@@ -106,16 +106,17 @@ TEST(Fault, SaysWhatWhichWhenAndWhatToDo) {
     const Time when = std::chrono::milliseconds(1234);
     EXPECT_EQ(
         describe({FaultKind::too_fast, 1, when, 100, 10}, "index", "Premium 1.0"),
-        "force is off since 1.234 s: the index's device (Premium 1.0) moved at 100 m/s, but "
+        "force has been off since 1.234 s: the index's device (Premium 1.0) moved at 100 m/s, but "
         "only 10 m/s are allowed. If no hand did that, check its cables and encoders; otherwise "
         "raise settings: safety: max_speed_m_s.");
+    EXPECT_EQ(describe({FaultKind::late, -1, when, 0.051, 0.04}, "thumb", "Premium 1.0"),
+              "force has been off since 1.234 s: the hands received no new force for 51 ms, but "
+              "only 40 ms "
+              "are allowed. Close other programs, or look for a device that blocks.");
     EXPECT_EQ(
-        describe({FaultKind::late, -1, when, 0.051, 0.04}, "thumb", "Premium 1.0"),
-        "force is off since 1.234 s: the hands received no new force for 51 ms, but only 40 ms "
-        "are allowed. Close other programs, or look for a device that blocks.");
-    EXPECT_EQ(describe({FaultKind::stopped, -1, when}, "thumb", "Premium 1.0"),
-              "force is off since 1.234 s: it was stopped by the operator. Everything until then "
-              "is recorded.");
+        describe({FaultKind::stopped, -1, when}, "thumb", "Premium 1.0"),
+        "force has been off since 1.234 s: it was stopped by the operator. Everything until then "
+        "is recorded.");
     for (const FaultKind kind :
          {FaultKind::bad_reading, FaultKind::not_answering, FaultKind::not_finite}) {
         const std::string text = describe({kind, 0, when}, "thumb", "Premium 1.0");

@@ -15,7 +15,7 @@ struct Options {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, says("Start of the streams' names."));
+        v("name", name, says("Beginning of the streams' names."));
         v("library", library, says("Path of liblsl, if it is not found automatically."));
     }
 };

@@ -43,7 +43,7 @@ struct Options {
         v("port", port,
           Field::text().required().says("Device file of the line, e.g. /dev/ttyUSB0."));
         v("baud", baud,
-          Field::number().within(50, 4e6).says("Speed of the line, one of the usual ones."));
+          Field::number().within(50, 4e6).says("Speed of the line, one of the standard ones."));
         v("hold", hold,
           Field::of(Quantity::time)
               .within(0, 1)
@@ -61,7 +61,7 @@ Options read_options(const OutletConfig& config, Diagnostics& diagnostics) {
     read_fields(options, config.options, diagnostics);
     if (speed_of(options.baud) == B0) {
         diagnostics.error(config.place, "baud",
-                          fmt::format("{} is not a speed of serial lines", options.baud),
+                          fmt::format("{} is not a standard speed of serial lines", options.baud),
                           "Use 9600, 19200, 38400, 57600, 115200, 230400, 460800 or 921600.");
     }
     return options;

@@ -162,7 +162,7 @@ TEST(CalibrationGuide, AsksForMoreWhenTheCloudIsTooSmall) {
     person.patience = 400;
     lead_calibration(person.rig, person.guide());
     const bool told = std::any_of(person.told.begin(), person.told.end(), [](const auto& text) {
-        return text.find("go on, that is not enough") != std::string::npos;
+        return text.find("continue, that is not enough") != std::string::npos;
     });
     EXPECT_TRUE(told);
 }

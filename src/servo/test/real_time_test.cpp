@@ -41,7 +41,7 @@ TEST(RealTime, SaysWhatWasRefusedAndHowToAllowIt) {
               "come late; dihaptic doctor gives the commands that allow it");
     EXPECT_EQ(describe(RealTime::Refusals{.awake = EACCES}, 80, true),
               "real time: Linux refused wakeful processors (EACCES), so ticks may come late; "
-              "dihaptic doctor explains how to start a container with these permissions");
+              "dihaptic doctor shows how to start a container with these permissions");
 }
 
 /// Returns the message that a process without any permissions receives.

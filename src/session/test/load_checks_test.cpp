@@ -65,9 +65,9 @@ TEST(LoadChecks, CompareStiffnessAndDampingWithTheLoop) {
                 "a spring load of 1.2e+04 N/m is above 6000 N/m");
     expect_said(said_of("kind: viscous, on: index, damping_Ns_m: 200"), "(2 m / T)");
     expect_said(said_of("kind: viscous, on: index, damping_Ns_m: -5"),
-                "drives the hand on by 5 N*s/m, more than the 3 N*s/m");
+                "pushes the hand on with 5 N*s/m, more than the 3 N*s/m");
     expect_said(said_of("kind: general, on: index, B_Ns_m: [[6, 0, 0], [0, 0, 0], [0, 0, 0]]"),
-                "drives the hand on by 6 N*s/m");
+                "pushes the hand on with 6 N*s/m");
 }
 
 TEST(LoadChecks, CompareForcesWithTheDevicesAndTheSafetyLimit) {

@@ -397,7 +397,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "hand:\n  script:\n    - {name: a, duration_s: 1, steady: yes, "
                     "end_velocity_m_s: [1, 0, 0]}\n";
             },
-            "experiment.yaml:5: error: end_velocity: 'a' is steady, so its speed is constant"},
+            "experiment.yaml:5: error: end_velocity: 'a' is 'steady', so its speed is constant"},
         Bad{"a turn in millimetres",
             [](Files& f) {
                 f.experiment +=

@@ -220,9 +220,9 @@ TEST(Wave, AWavThatClaimsMoreSamplesThanItHasIsRefused) {
     std::string wav = file_of(folder, "a.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16);
     const size_t size = wav.find("data") + 4;
     for (size_t i = 0; i < 4; ++i) wav[size + i] = '\xff';
-    EXPECT_NE(
-        refusal_of(folder, wav).find("has 96000 bytes of samples, but its head states 4294967295"),
-        std::string::npos)
+    EXPECT_NE(refusal_of(folder, wav)
+                  .find("has 96000 bytes of samples, but its header states 4294967295"),
+              std::string::npos)
         << refusal_of(folder, wav);
 }
 

@@ -603,7 +603,7 @@ class Compiler : Parts {
     Value look_back(const Token& name, LookBack::Statistic statistic) {
         if (!quantities_.looks_back()) {
             throw Fault{name.column, fmt::format("'{}' looks back over trials", name.text),
-                        "Set a variable to it in after_trial, and use that variable here."};
+                        "In after_trial, set a variable to it, and use that variable here."};
         }
         const Value of = choice();
         demand(of, Type::number);

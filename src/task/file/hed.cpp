@@ -29,7 +29,7 @@ std::string fault_of_tag(std::string tag) {
     const std::string_view text = tag;
     if (text.starts_with('/') || text.ends_with('/') || text.find("//") != text.npos ||
         text.find('#') != text.npos)
-        return fmt::format("has a tag, '{}', with a '/' or '#' too many", tag);
+        return fmt::format("has a tag, '{}', with one '/' or '#' too many", tag);
     const std::string_view first = text == "n/a" ? text : text.substr(0, text.find('/'));
     if (std::ranges::find(kNotHere, first) == kNotHere.end()) return "";
     return fmt::format("has the tag '{}', which the export cannot use", tag);

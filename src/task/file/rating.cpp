@@ -40,10 +40,10 @@ void check_ends(const AskSpec& spec, Diagnostics& diagnostics) {
         diagnostics.error(spec.place, spec.from ? "to" : "from", "is missing",
                           "Add e.g. from: 1, to: 9.");
     if (spec.most() <= spec.least())
-        diagnostics.error(
-            spec.place, "to",
-            fmt::format("is {:g}, which is not above 'from', {:g}", spec.most(), spec.least()),
-            "Make 'to' greater than 'from'.");
+        diagnostics.error(spec.place, "to",
+                          fmt::format("is {:g}, but must be above 'from', which is {:g}",
+                                      spec.most(), spec.least()),
+                          "Make 'to' greater than 'from'.");
     if (spec.scale == Scale::magnitude && spec.least() < 0)
         diagnostics.error(spec.place, "from", "is negative, but a magnitude cannot be",
                           "Leave it out: the default is 0.");

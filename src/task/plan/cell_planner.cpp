@@ -70,10 +70,10 @@ class CellPlanner : Planning {
             during |= uint64_t{1} << i;
             const State& state = states[static_cast<size_t>(i)];
             if (!state.perturbed)
-                found.error(
-                    spec.place, "during",
-                    fmt::format("nothing acts in '{}', which has 'perturbed: no'", state.name),
-                    "Leave out one or the other.");
+                found.error(spec.place, "during",
+                            fmt::format("no perturbation acts in '{}', which has 'perturbed: no'",
+                                        state.name),
+                            "Leave out one or the other.");
         }
     }
 

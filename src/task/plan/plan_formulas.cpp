@@ -352,10 +352,10 @@ void plan_what_rules_need(TaskPlan& plan, const std::vector<int>& slots, Diagnos
         const CustomMeasure& measure = plan.task.custom_measures[i];
         check_alone(measure, plan.task, diagnostics);
         if (measure.take == Take::median || measure.window) {
-            diagnostics.error(
-                measure.place, measure.window ? "window" : "take",
-                "makes the measure known only after the session, but after_trial names the measure",
-                "Take another statistic, or leave the measure out of the rules.");
+            diagnostics.error(measure.place, measure.window ? "window" : "take",
+                              "gives the measure its value only after the session, but after_trial "
+                              "uses the measure",
+                              "Take another statistic, or leave the measure out of the rules.");
             continue;
         }
         const Formula of = formula_of(measure.of, measure.name, "of", measure.place);

@@ -299,7 +299,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "there are two measures 'a'"},
         Mistake{kBlocks, "{ name: a, of: 1, take: max, during: [raech] }", "Did you mean reach?"},
         Mistake{kBlocks, "{ name: a, of: 'mean(trial_num, 3)', take: max }",
-                "'mean' looks back over trials. Set a variable to it in after_trial"}));
+                "'mean' looks back over trials. In after_trial, set a variable to it"}));
 
 /// A mistake in a measure that a rule may use, or in the rule itself.
 class MistakenRule : public ::testing::TestWithParam<Mistake> {};
@@ -317,7 +317,7 @@ TEST_P(MistakenRule, IsRefused) {
 
 INSTANTIATE_TEST_SUITE_P(
     CustomMeasures, MistakenRule,
-    ::testing::Values(Mistake{"median", "measure.x", "known only after the session"},
+    ::testing::Values(Mistake{"median", "measure.x", "its value only after the session"},
                       Mistake{"last }, { name: x_rad, of: 1, take: last", "1 mm * measure.x",
                               "'x_mm' and 'x_rad' are both measure.x in after_trial"},
                       Mistake{"last", "measure.y", "'measure.y' is not a quantity"},

@@ -110,8 +110,8 @@ TEST(ForceDimension, DevicesThatAreNotThereAreTold) {
     FakeDhd& fake = fake_dhd();
     std::string said = told([] { make({"serial: 103\n"}); });
     expect_in(
-        "rig.yaml:1: error: serial: no device has serial number 103. There are: omega.3 101, "
-        "omega.3 102.",
+        "rig.yaml:1: error: serial: no device has serial number 103. Those connected are omega.3 "
+        "101, omega.3 102.",
         said);
     expect_in("is needed: several devices are connected", told([] { make({""}); }));
     fake.devices[1].serial = 101;
@@ -138,7 +138,7 @@ TEST(ForceDimension, NothingStaysOpenAfterAFailure) {
 TEST(ForceDimension, RigsThatCannotBeAreRefusedWithoutADevice) {
     fake_dhd();
     expect_in("rig.yaml:2: error: serial: is needed", told([] { make({"serial: 101\n", ""}); }));
-    expect_in("serial: '101' also belongs to the thumb's device", told([] {
+    expect_in("serial: '101' is also given for the thumb's device", told([] {
                   make({"serial: 101\n", "serial: 101\n"});
               }));
 }
@@ -239,7 +239,7 @@ TEST(ForceDimension, ADeviceWithoutAWatchdogIsUsedOnlyWhenTheRigSaysSo) {
         "watchdog: "
         "not available on this device",
         said);
-    expect_in("the force may stay on when this program dies", said);
+    expect_in("the force may stay on if this program crashes", said);
     EXPECT_FALSE(fake.expert);
     EXPECT_FALSE(fake.devices[0].force_enabled);
     const auto group = make({"serial: 101\nwatchdog: no\n"});

@@ -308,7 +308,7 @@ TEST_F(Haply, ListsWhatThereIsWhenADeviceIsNot) {
         devices->activate();
         FAIL();
     } catch (const Error& e) {
-        EXPECT_SAYS(std::string(e.what()), "knows no Inverse3 'BEEF'");
+        EXPECT_SAYS(std::string(e.what()), "does not list an Inverse3 'BEEF'");
         EXPECT_SAYS(std::string(e.what()), "It lists: 049D, 04A1.");
     }
 }
@@ -328,7 +328,7 @@ TEST_F(Haply, SaysThatNothingListens) {
     EXPECT_SAYS(survey_of(url).missing, "Connection refused");
     EXPECT_TRUE(survey_of(url).devices.empty());
     EXPECT_SAYS(survey_of("ws://" + std::string(70, 'x') + ":1/").missing,
-                "there is no computer xxx");
+                "there is no computer named xxx");
 }
 
 TEST_F(Haply, SurveysWhatTheServiceLists) {

@@ -248,10 +248,10 @@ TEST(OpenHaptics, SerialNumbersAreChecked) {
 TEST(OpenHaptics, RigsThatCannotBeAreRefusedWithoutADevice) {
     fake_hd();
     expect_in("rig.yaml:2: error: name: is needed", told([] { make({kTwo[0], ""}); }));
-    expect_in("name: 'PHANToM 1' also belongs to the thumb's device", told([] {
+    expect_in("name: 'PHANToM 1' is also given for the thumb's device", told([] {
                   make({kTwo[0], kTwo[0]});
               }));
-    expect_in("serial: '7' also belongs to the thumb's device", told([] {
+    expect_in("serial: '7' is also given for the thumb's device", told([] {
                   make({"name: A\nserial: 7\n", "name: B\nserial: 7\n"});
               }));
 }
