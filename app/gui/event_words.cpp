@@ -28,6 +28,7 @@ const std::map<std::string, const char*> kSentences{
     {"sound ends", QT_TRANSLATE_NOOP("Events", "sound \"%1\" ends")},
     {"marker", QT_TRANSLATE_NOOP("Events", "marker %1 is sent")},
     {"setting", QT_TRANSLATE_NOOP("Events", "setting changed: %1")},
+    {rows::kNote, QT_TRANSLATE_NOOP("Events", "the operator notes: %1")},
     {"paused", QT_TRANSLATE_NOOP("Events", "the session pauses: %1")},
     {"went on", QT_TRANSLATE_NOOP("Events", "the session goes on %1")},
     {"lift-off", QT_TRANSLATE_NOOP("Events", "%1 leaves its support")},

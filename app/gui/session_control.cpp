@@ -1,15 +1,12 @@
 #include "session_control.h"
 
 #include <QFileInfo>
-#include <QTime>
 #include <algorithm>
 #include <utility>
 
-#include "base/regular_file.h"
-#include "base/text_file.h"
 #include "frame/shown_texts.h"
 #include "headset_view.h"
-#include "note_dialog.h"
+#include "plain_text.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -198,7 +195,7 @@ void SessionControl::take(const Opened& opened) {
     if (starts_) {
         Start start = *std::exchange(starts_, std::nullopt);
         start.participant = opened.participant.value_or(start.participant);
-        start.in_study = opened.in_study;
+        if (opened.in_study) start.in_study = opened.in_study;  // of a resumed session
         return run(start, std::move(devices));
     }
     if (!edited_) log(tr("opened %1: %2").arg(file_, QString::fromStdString(plan_->title)));
@@ -247,7 +244,7 @@ void SessionControl::begin(session::Request request, const Start& start,
 
 void SessionControl::run(const Start& start, std::unique_ptr<devices::DeviceGroup> devices) {
     session::RunOptions options;
-    options.out = out_.toStdString();
+    options.out = start.out.empty() ? out_.toStdString() : start.out;
     options.sync = sync_;
     options.command = "dihaptic gui " + file_.toStdString();
     options.participant = start.participant;
@@ -272,7 +269,10 @@ void SessionControl::run(const Start& start, std::unique_ptr<devices::DeviceGrou
 
 void SessionControl::stop() {
     forget_start();
-    if (runner_.running()) runner_.end();
+    if (runner_.running()) {
+        Q_EMIT ending();
+        runner_.end();
+    }
     if (loader_.loading()) loader_.cancel();
 }
 
@@ -317,23 +317,27 @@ void SessionControl::set_pace(double pace) {
     if (runner_.running() && runner_.on_virtual_clock()) runner_.set_pace(pace);
 }
 
-void SessionControl::note(const QString& text) {
-    const QString said = text.simplified();
-    if (said.isEmpty() || running_.isEmpty() || !runner_.running()) return;
+void SessionControl::begin_note() {
+    if (begun_ || !runner_.running()) return;
     const frame::Frame& frame = runner_.frame();
-    const QString trial =
-        has_trials() && frame.trial > 0 ? tr(", trial %1").arg(frame.trial) : QString();
-    const QString line = QString("%1 (%2 s)%3: %4")
-                             .arg(QTime::currentTime().toString("HH:mm:ss"))
-                             .arg(seconds(frame.time), 0, 'f', 1)
-                             .arg(trial, said);
-    try {
-        const std::string file = (running_ + "/" + kNoteFile).toStdString();
-        const std::string before = is_there(file) ? read_text_file(file) : "";
-        write_file(before + line.toStdString() + "\n", file);
+    begun_ = recording::Remark{std::max<int64_t>(frame.sequence, 0), seconds(frame.time),
+                               has_trials() ? frame.trial : 0, recording::iso_now(), ""};
+}
+
+void SessionControl::note(const QString& text) {
+    begin_note();
+    std::optional<recording::Remark> remark = std::exchange(begun_, std::nullopt);
+    const QString said = clean_text(text).simplified();
+    if (!remark || said.isEmpty()) return;
+    remark->text = said.toStdString();
+    const QString line = QString::fromStdString(recording::describe(*remark));
+    if (runner_.running() && runner_.add_remark(*remark)) {
         log(tr("note: %1").arg(line));
-    } catch (const Error& e) {
-        log(e.what(), true);
+    } else {
+        log(tr("The session ended before this note was stored: %1. File > Recorded sessions > Note "
+               "adds it to the session.")
+                .arg(line),
+            true);
     }
 }
 

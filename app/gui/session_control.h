@@ -37,7 +37,8 @@ class SessionControl : public QObject {
         recording::Participant participant;
         bool by_person = false;  ///< whether a simulated person moves the hand
         double pace = 1;         ///< SessionRunner's
-        std::optional<recording::InStudy> in_study = std::nullopt;  ///< place of a resumed session
+        std::optional<recording::InStudy> in_study = std::nullopt;  ///< place in a study
+        std::string out = "";  ///< folder for the recording; "": where sessions go
     };
 
     /// The parameters have the same meaning as in OperatorWindow.
@@ -108,7 +109,11 @@ class SessionControl : public QObject {
     /// "" if Escape was pressed.
     void take_force_away(const QString& why = "");
     void set_pace(double pace);
-    /// Adds a line to the note of the running session, with the time and the trial.
+    /// The operator begins to write a note: it will have the present time and trial. Has no effect
+    /// while a note has been begun.
+    void begin_note();
+    void drop_note() { begun_.reset(); }
+    /// Adds a note to the running session, at the time at which it was begun.
     void note(const QString& text);
     void turn_knobs(const frame::Knobs& knobs, const QString& what);
     /// Passes on a key press for which a task may be waiting.
@@ -128,6 +133,8 @@ class SessionControl : public QObject {
     /// The errors or warnings of the file that was read.
     void judged(const QStringList& problems);
     void start_due();
+    /// The operator ends the session; until the receivers return, it accepts notes.
+    void ending();
     /// A session is about to start; the receiver may add options.
     void prepared(const dihaptic::session::Plan& plan, dihaptic::session::RunOptions& options);
     void started(const dihaptic::session::Plan& plan);
@@ -180,6 +187,7 @@ class SessionControl : public QObject {
     QString running_;           ///< folder of the running session; "" before it is known
     QString recorded_;
     QString complaint_;
+    std::optional<recording::Remark> begun_;  ///< a note that the operator is writing
 };
 
 }  // namespace dihaptic::gui

@@ -30,6 +30,7 @@ SessionPanel::SessionPanel(SessionControl& control)
       pause_(new QPushButton),
       skip_(new QPushButton(icon(shapes::kSkip), tr("Skip"))),
       stop_(new QPushButton(icon(shapes::kStop), "")),
+      report_(new QPushButton(icon(shapes::kLook), tr("Report"))),
       trial_(new QLabel),
       names_(new QLabel),
       progress_(new QProgressBar),
@@ -77,10 +78,13 @@ void SessionPanel::make_form() {
     connect(open_, &QPushButton::clicked, this, &SessionPanel::open_requested);
     connect(rig_, &QComboBox::activated, this, &SessionPanel::choice_changed);
     note_->setAccessibleName(tr("Note"));
-    note_->setToolTip(tr("F3: Enter adds this to the session's note, with the time and the trial"));
+    note_->setToolTip(
+        tr("F3: Enter records this note, with the time and the trial at which you begin to write"));
+    connect(note_, &QLineEdit::textEdited, this, [this](const QString& text) {
+        text.isEmpty() ? control_.drop_note() : control_.begin_note();
+    });
     connect(note_, &QLineEdit::returnPressed, this, [this] {
-        control_.note(note_->text());
-        note_->clear();
+        store_note();
         Q_EMIT note_written();
     });
 }
@@ -92,13 +96,15 @@ void SessionPanel::make_buttons() {
     stop_->setToolTip(tr("F7: ends the session properly"));
     auto* buttons = new QHBoxLayout;
     buttons->setSpacing(space::kTight);
-    for (QPushButton* button : {start_, pause_, skip_, stop_}) buttons->addWidget(button);
+    report_->setToolTip(tr("Ctrl+R: the report of the session that has just been recorded"));
+    for (QPushButton* button : {start_, pause_, skip_, stop_, report_}) buttons->addWidget(button);
     qobject_cast<QVBoxLayout*>(layout())->addLayout(buttons);
     connect(start_, &QPushButton::clicked, this, &SessionPanel::start_requested);
     connect(pause_, &QPushButton::clicked, &control_,
             [this] { control_.pause(control_.state() != SessionControl::State::paused); });
     connect(skip_, &QPushButton::clicked, &control_, &SessionControl::skip);
     connect(stop_, &QPushButton::clicked, &control_, &SessionControl::stop);
+    connect(report_, &QPushButton::clicked, this, &SessionPanel::report_requested);
 }
 
 void SessionPanel::connect_control() {
@@ -119,8 +125,9 @@ void SessionPanel::connect_control() {
     connect(&control_, &SessionControl::trial_ended, strip_, &TrialStrip::add);
     connect(&control_, &SessionControl::framed, strip_,
             [this](const frame::Frame& frame) { strip_->set_current(frame.trial); });
+    connect(&control_, &SessionControl::ending, this, &SessionPanel::store_note);
     connect(&control_, &SessionControl::ended, this, [this] {
-        set_trial("", "");
+        store_note();
         strip_->set_current(0);
     });
 }
@@ -168,7 +175,8 @@ void SessionPanel::show_state() {
     show_sign();
     const bool runs = control_.runner().running();
     trial_->setVisible(trials && runs);
-    names_->setVisible(trials && runs);
+    if (!runs) show_title();
+    names_->setVisible((trials && runs) || !names_->text().isEmpty());
     progress_->setVisible(runs || control_.loading());
     strip_->setVisible(strip_->has_trials());
     note_->setVisible(runs);
@@ -211,6 +219,12 @@ void SessionPanel::show_sign() {
     pause_->setVisible(runs);
     skip_->setVisible(runs && control_.has_trials());
     stop_->setVisible(runs || control_.may(Act::stop));
+    report_->setVisible(!runs && !control_.recorded().isEmpty());
+}
+
+void SessionPanel::store_note() {
+    control_.note(note_->text());
+    note_->clear();
 }
 
 void SessionPanel::write_note() {
@@ -223,11 +237,33 @@ void SessionPanel::set_progress(double share, const QString& text) {
     progress_->setFormat(text);
 }
 
+void SessionPanel::show_title() {
+    if (!control_.plan()) return set_trial("", "");
+    QString title = QString::fromStdString(control_.plan()->title);
+    if (const auto& task = control_.plan()->task) {
+        const size_t trials = task->trials.size();
+        title += trials == 1 ? tr(" (1 trial)") : tr(" (%1 trials)").arg(trials);
+    }
+    set_trial("", title);
+}
+
 void SessionPanel::set_trial(const QString& number, const QString& names) {
     trial_->setText(number);
     if (names_->text() == names) return;
     names_->setText(names);
-    names_->setFixedHeight(names_->heightForWidth(std::max(1, names_->width())));
+    fit_names();
+}
+
+void SessionPanel::fit_names() {
+    // the label's own width says nothing while it is hidden
+    const QMargins margins = layout()->contentsMargins();
+    const int width = std::max(1, this->width() - margins.left() - margins.right());
+    names_->setFixedHeight(std::max(0, names_->heightForWidth(width)));
+}
+
+void SessionPanel::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    fit_names();
 }
 
 }  // namespace dihaptic::gui

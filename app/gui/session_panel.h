@@ -44,17 +44,26 @@ class SessionPanel : public QWidget {
     /// A different rig or hand was chosen.
     void choice_changed();
     void start_requested();
+    void report_requested();
     void note_written();
+
+  protected:
+    void resizeEvent(QResizeEvent* event) override;
 
   private:
     void set_up_hand();
+    /// Gives the line below the trial as many lines as its words need.
+    void fit_names();
     void connect_control();
     void show_state();
     void show_sign();
     void show_pace();
+    /// Shows what the open file is, until its session runs.
+    void show_title();
     void set_progress(double share, const QString& text);
     /// Shows the running trial; empty texts if there is none.
     void set_trial(const QString& number, const QString& names);
+    void store_note();
     void make_form();
     void make_buttons();
 
@@ -72,6 +81,7 @@ class SessionPanel : public QWidget {
     QPushButton* pause_;
     QPushButton* skip_;
     QPushButton* stop_;
+    QPushButton* report_;
     QLabel* trial_;
     QLabel* names_;
     QProgressBar* progress_;

@@ -102,6 +102,10 @@ class SessionRunner : public QObject {
         if (running())
             session_->live.note_shown(showing.tick, showing.at, showing.X_WV, showing.tracked);
     }
+    /// Passes on a note of the operator. Returns false if the session's last tick is over.
+    bool add_remark(recording::Remark remark) {
+        return session_->live.add_remark(std::move(remark));
+    }
     /// Passes on a key press, for a task that waits for a key.
     void press(char key) { session_->keys.push(key); }
     /// Passes on a click on the line of a question.

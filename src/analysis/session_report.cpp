@@ -26,6 +26,7 @@
 #include "recording/hearings.h"
 #include "recording/log_scene.h"
 #include "recording/nwb.h"
+#include "recording/remarks.h"
 #include "recording/seal.h"
 #include "recording/showings.h"
 #include "scene/scene.h"
@@ -377,13 +378,23 @@ void find_heard(std::vector<rows::EventRow>& events,
     }
 }
 
+/// Adds the notes of the operator, in the order of time.
+void add_remarks(std::vector<rows::EventRow>& events,
+                 const std::vector<recording::Remark>& remarks) {
+    for (const recording::Remark& remark : remarks)
+        events.push_back({remark.tick, remark.time, remark.trial, rows::kNote, remark.text});
+    std::ranges::stable_sort(events, {}, &rows::EventRow::tick);
+}
+
 /// Converts the table of events to the form required by NWB: intervals with a start and an end.
+/// Notes of the operator, which may name a person, are left out.
 Table as_intervals(const Table& events) {
     Table table;
     table.columns = {{"start_time", "from the session's start", "s"},
                      {"stop_time", "from the session's start", "s"}};
     table.columns.insert(table.columns.end(), events.columns.begin() + 1, events.columns.end());
     for (const std::vector<Table::Cell>& event : events.rows) {
+        if (event[2] == Table::Cell(rows::kNote)) continue;
         std::vector<Table::Cell> row{event[0]};
         row.insert(row.end(), event.begin(), event.end());
         table.rows.push_back(row);
@@ -436,8 +447,11 @@ void keep_longer_files(const recording::SessionFolder& folder, const SessionFigu
     check("episodes.csv", last_time<rows::EpisodeRow>(folder.file("episodes.csv"), end));
     check("lifts.csv", last_time<rows::LiftRow>(folder.file("lifts.csv"),
                                                 [](const auto& lift) { return lift.release; }));
-    check("events.csv", last_time<rows::EventRow>(folder.file("events.csv"),
-                                                  [](const auto& event) { return event.time; }));
+    // a note may come from a tick that the log has lost
+    const auto of_log = [](const auto& event) {
+        return event.name == rows::kNote ? 0 : event.time;
+    };
+    check("events.csv", last_time<rows::EventRow>(folder.file("events.csv"), of_log));
     if (problems.empty()) return;
     for (const std::string& what : damage)
         problems.push_back({Severity::warning, {folder.raw_log(), 0}, "", what, ""});
@@ -559,6 +573,7 @@ Table events_of(const Reading& reading, const recording::SessionFolder& folder,
     std::vector<rows::EventRow> events = reading.events;
     find_shown(events, recording::Showings(folder));
     find_heard(events, recording::read_hearings(folder));
+    add_remarks(events, recording::read_remarks(folder));
     return recording::marked(figure_table<rows::EventRow>(events), info.moved_by);
 }
 

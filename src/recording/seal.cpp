@@ -19,7 +19,7 @@ constexpr std::string_view kMade[] = {"trials.csv", "phases.csv",      "episodes
 /// Tables written before the first tick or while the session ran.
 constexpr std::string_view kGiven[] = {"procedures.csv", "trials-before.csv", "movement-faults.csv",
                                        "settings.csv",   "shown.csv",         "head.csv",
-                                       "heard.csv"};
+                                       "heard.csv",      "notes.csv"};
 /// Every session has this table, but versions before 0.3 did not seal it.
 constexpr std::string_view kSealedLater = "settings.csv";
 

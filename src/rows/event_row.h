@@ -12,6 +12,10 @@ namespace dihaptic::rows {
 /// Version of the HED schema (www.hedtags.org) that defines the tags.
 inline constexpr const char* kHedSchema = "8.3.0";
 
+/// Name of the event that contains a note of the operator. The note may name a person, so that
+/// files meant to be shared leave it out.
+inline constexpr const char* kNote = "note";
+
 struct EventKind {
     const char* name;
     const char* value;  ///< what the event's detail means
@@ -35,6 +39,8 @@ inline constexpr EventKind kEventKinds[] = {
     {"perturbation", "on or off", "Experiment-control"},
     {"put back", "number of bodies placed", "Experiment-control"},
     {"setting", "the setting and its new value", "Experiment-control"},
+    {kNote, "what the operator wrote, at the time when the operator began to write",
+     "Experiment-control"},
     {"paused", "effect of the pause", "Experiment-control"},
     {"went on", "the interruption after which it went on", "Experiment-control"},
     {"touch", "the finger, and the object touched", "Agent-action, Experiment-participant, Touch"},

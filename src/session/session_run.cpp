@@ -381,7 +381,9 @@ void Run::run_ticks() {
     const frame::Director director = std::ref(*director_);
     recording::ShowingsWriter showings(folder_);
     recording::HeadsWriter heads(folder_);
-    const Watcher watcher([&] {
+    recording::RemarksWriter remarks(folder_);
+    std::optional<Watcher> watcher;
+    watcher.emplace([&] {
         if (progress_) progress_(std::min(1.0, share()));
         // on the virtual clock, a tick may be waiting for the controller's answer
         if (options_.controller != nullptr && stop_) options_.controller->between()->leave();
@@ -395,12 +397,21 @@ void Run::run_ticks() {
         }
         showings.flush();
         heads.flush();
+        for (const recording::Remark& remark : live_->take_remarks(false)) remarks.add(remark);
     });
     if (real_) {
         run_real_ticks(director, sink);
     } else {
         run_virtual_ticks(director, sink);
     }
+    watcher.reset();
+    if (live_ == nullptr) return;
+    for (const recording::Remark& remark : live_->take_remarks(true)) remarks.add(remark);
+    if (remarks.lost() == 0) return;
+    info_.notes.push_back(fmt::format(
+        "{} of the operator could not be written into notes.csv. The window's log has the text: "
+        "add it to note.txt (File > Recorded sessions > Note).",
+        counted(remarks.lost(), "note")));
 }
 
 /// Runs the ticks; if somebody watches the session, at the pace that the viewer chose.

@@ -5,12 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <QCoreApplication>
-#include <QRegularExpression>
 #include <algorithm>
 #include <map>
 
 #include "answer_until.h"
-#include "base/text_file.h"
+#include "recording/remarks.h"
+#include "recording/seal.h"
+#include "rows/event_row.h"
 #include "session_sign.h"
 #include "testing/files.h"
 
@@ -167,20 +168,42 @@ TEST_F(SessionControlTest, ASessionStartsPausesAndEnds) {
     EXPECT_TRUE(control_.complaint().isEmpty());
 }
 
-TEST_F(SessionControlTest, NotesAreKeptWithTheTime) {
+TEST_F(SessionControlTest, NotesAreEventsAtTheTimeAtWhichTheyWereBegun) {
     control_.note("nothing runs");
     run();
     ASSERT_TRUE(answer_until([&] { return frames_ > 0; }));
-    control_.note("  the participant\n coughed ");
+    control_.begin_note();
+    const frame::Frame begun = control_.runner().frame();
+    ASSERT_TRUE(answer_until([&] { return control_.runner().frame().sequence > begun.sequence; }));
+    control_.note("  the participant\n said \"oh, no\" ");
     control_.note(" ");
     control_.note("and again");
     control_.stop();
     ASSERT_TRUE(answer_until([&] { return ended_ == 1; }));
-    const std::string note = read_text_file(control_.recorded().toStdString() + "/note.txt");
-    const QRegularExpression lines(
-        "^\\d\\d:\\d\\d:\\d\\d \\(\\d+\\.\\d s\\): the participant coughed\n"
-        "\\d\\d:\\d\\d:\\d\\d \\(\\d+\\.\\d s\\): and again\n$");
-    EXPECT_TRUE(lines.match(QString::fromStdString(note)).hasMatch()) << note;
+    control_.note("too late");
+    const auto folder = recording::SessionFolder::open(control_.recorded().toStdString());
+    std::vector<rows::EventRow> notes;
+    for (const rows::EventRow& event : rows::EventFile(folder.file("events.csv"))) {
+        if (event.name == rows::kNote) notes.push_back(event);
+    }
+    ASSERT_EQ(notes.size(), 2u);
+    EXPECT_EQ(notes[0].detail, "the participant said \"oh, no\"");
+    EXPECT_NEAR(notes[0].time, seconds(begun.time), 1e-6);
+    EXPECT_EQ(notes[1].detail, "and again");
+    EXPECT_GT(notes[1].time, notes[0].time);
+    EXPECT_EQ(recording::read_remarks(folder)[0].tick, begun.sequence);
+    EXPECT_TRUE(recording::broken_seals(folder, folder.read_info(), Severity::error).empty());
+}
+
+TEST_F(SessionControlTest, ANoteThatComesTooLateIsTold) {
+    run();
+    ASSERT_TRUE(answer_until([&] { return frames_ > 0; }));
+    control_.begin_note();
+    control_.stop();
+    ASSERT_TRUE(answer_until([&] { return ended_ == 1; }));
+    control_.note("coughed");
+    EXPECT_TRUE(log_.join('\n').contains("coughed. File > Recorded sessions > Note"))
+        << log_.join('\n').toStdString();
 }
 
 TEST_F(SessionControlTest, AMouseMovesTheHandInRealTime) {

@@ -295,6 +295,7 @@ std::optional<Events> events_of(const recording::SessionFolder& session,
     for (const Attempt& attempt : attempts) rows.emplace_back(attempt.start, maker.trial(attempt));
     for (const rows::EventRow& moment : moments) {
         if (moment.name == "trial") continue;  // the attempt already has a row
+        if (moment.name == rows::kNote) continue;
         const auto in_it = [&](const Attempt& a) {
             return a.start <= moment.time && moment.time <= a.stop;
         };

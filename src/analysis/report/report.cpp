@@ -13,6 +13,7 @@
 #include "base/regular_file.h"
 #include "base/text_file.h"
 #include "recording/raw_log.h"
+#include "recording/remarks.h"
 
 namespace dihaptic::analysis {
 namespace {
@@ -72,6 +73,18 @@ std::string note_in(const SessionData& session) {
     }
 }
 
+/// Returns what the operator noted while the session ran, line by line, or why it cannot be shown.
+std::string remarks_in(const SessionData& session) {
+    std::string out;
+    try {
+        for (const recording::Remark& remark : recording::read_remarks(session.folder))
+            out += recording::describe(remark) + "\n";
+        return out;
+    } catch (const Error& e) {
+        return e.what();
+    }
+}
+
 ReportSample sample_of(const Sessions& sessions) {
     const SessionData& first = sessions.front()->data;
     ReportSample out{
@@ -98,6 +111,10 @@ ReportResult report_session(const std::string& path, const std::function<void(do
     ReportSample& sample = result.samples.emplace_back(sample_of({&session}));
     if (data.info.convergence) sample.contact = data.info.convergence->describe();
     sample.note = note_in(data);
+    const std::string remarks = remarks_in(data);
+    if (!remarks.empty() && !sample.note.empty() && !sample.note.ends_with('\n'))
+        sample.note += '\n';
+    sample.note += remarks;
     return result;
 }
 

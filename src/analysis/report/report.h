@@ -20,7 +20,7 @@ struct ReportSample {
     std::string not_measured;  ///< perturbations for which learning has no measure, if any
     std::string contact;       ///< for a single session: how well the contact solver converged
     Table perturbations;
-    std::string note;  ///< for a single session: what was written by hand into note.txt
+    std::string note;  ///< for a single session: note.txt, and the notes made while it ran
     std::vector<std::string> folders;  ///< folders of the sessions
 };
 

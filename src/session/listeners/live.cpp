@@ -121,6 +121,19 @@ void Live::set_folder(const std::string& folder) {
     folder_ = folder;
 }
 
+bool Live::add_remark(recording::Remark remark) {
+    const std::lock_guard lock(told_guard_);
+    if (remarks_closed_) return false;
+    remarks_.push_back(std::move(remark));
+    return true;
+}
+
+std::vector<recording::Remark> Live::take_remarks(bool close) {
+    const std::lock_guard lock(told_guard_);
+    remarks_closed_ |= close;
+    return std::exchange(remarks_, {});
+}
+
 std::string Live::take_folder() {
     const std::lock_guard lock(told_guard_);
     return std::exchange(folder_, {});

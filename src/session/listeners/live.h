@@ -11,6 +11,7 @@
 #include "base/latest.h"
 #include "base/ring.h"
 #include "recording/heads.h"
+#include "recording/remarks.h"
 #include "recording/showings.h"
 #include "session/knob_turner.h"
 #include "session/listeners/listener.h"
@@ -126,6 +127,13 @@ class Live : public Listener {
     std::optional<recording::Showing> take_showing() { return showings_.pop(); }
     std::optional<recording::HeadSeen> take_head() { return heads_.pop(); }
 
+    /// Called from the window's thread: a note of the operator, to be recorded. Returns false if
+    /// the last tick is over, when nothing can be added to the recording.
+    bool add_remark(recording::Remark remark);
+    /// Removes and returns the notes not yet taken; after `close`, no more are accepted. To be
+    /// called from the threads that write the session's files.
+    std::vector<recording::Remark> take_remarks(bool close);
+
   private:
     void note_zero(Time now) noexcept;
     double session_time(Clock::time_point at) const noexcept;
@@ -134,9 +142,11 @@ class Live : public Listener {
     static constexpr Clock::rep kNever = 0;
     std::atomic<Clock::rep> alive_{kNever};  // time of the last note_alive() plus its `more`
 
-    std::mutex told_guard_;  // guards both
+    std::mutex told_guard_;  // guards the following, which no tick touches
     std::string told_;
     std::string folder_;
+    std::vector<recording::Remark> remarks_;
+    bool remarks_closed_ = false;
 
     std::atomic<Clock::rep> zero_{
         std::numeric_limits<Clock::rep>::max()};    // when session time was zero
