@@ -7,12 +7,11 @@
 #include <map>
 
 #include "recording/moved_by.h"
+#include "study/identifier.h"
 #include "task/plan/trials.h"
 
 namespace dihaptic::gui {
 namespace {
-
-constexpr size_t kLongest = 40;  // length of an identifier, which is part of a folder's name
 
 bool is_digit(char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
@@ -70,18 +69,21 @@ bool contains(const std::vector<std::string>& known, const std::string& id) {
 }  // namespace
 
 QString fault_of_identifier(const std::string& typed, bool needs_number) {
-    if (typed.empty()) return QObject::tr("Type the participant's identifier, e.g. S07.");
-    const bool allowed = std::ranges::all_of(
-        typed, [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; });
-    if (!allowed)
-        return QObject::tr("Only the letters A to Z, digits, - and _ are allowed, and no spaces.");
-    if (typed.size() > kLongest)
-        return QObject::tr("At most %1 characters are allowed.").arg(kLongest);
-    if (QString::fromStdString(typed).startsWith(recording::kSimulatedPrefix, Qt::CaseInsensitive))
-        return QObject::tr("Identifiers that begin with %1 are those of simulated people.")
-            .arg(recording::kSimulatedPrefix);
-    if (std::ranges::none_of(typed, is_digit))
-        return QObject::tr("It has no digit, and may be a person's name: use e.g. S07.");
+    switch (study::fault_of_identifier(typed)) {
+        case study::IdentifierFault::none:
+            break;
+        case study::IdentifierFault::empty:
+            return QObject::tr("Type the participant's identifier, e.g. S07.");
+        case study::IdentifierFault::sign:
+            return QObject::tr("Only the letters A to Z, digits, - and _ are allowed.");
+        case study::IdentifierFault::too_long:
+            return QObject::tr("At most %1 characters are allowed.").arg(study::kLongestIdentifier);
+        case study::IdentifierFault::simulated:
+            return QObject::tr("Identifiers that begin with %1 are those of simulated people.")
+                .arg(recording::kSimulatedPrefix);
+        case study::IdentifierFault::no_digit:
+            return QObject::tr("It has no digit, and may be a person's name: use e.g. S07.");
+    }
     if (needs_number && task::participant_number(typed) < 0)
         return QObject::tr("It must end in a number, which orders the trials.");
     return "";

@@ -22,6 +22,7 @@
 #include "base/text_file.h"
 #include "recording/session.h"
 #include "study/facts.h"
+#include "study/identifier.h"
 
 namespace dihaptic::study {
 namespace {
@@ -69,10 +70,9 @@ void check_places(const Roster& roster, const std::string& file) {
         return Error({file, 0}, id, what, "Restore the file: log.csv says who was added.");
     };
     for (const Member& member : roster.participants) {
-        const bool word = std::all_of(member.id.begin(), member.id.end(), [](unsigned char c) {
-            return std::isalnum(c) != 0 || c == '-';  // sim-001
-        });
-        if (!word) throw fault(member.id, "is not an identifier");
+        const IdentifierFault wrong = fault_of_identifier(member.id);
+        if (wrong != IdentifierFault::none && wrong != IdentifierFault::simulated)
+            throw fault(member.id, "is not an identifier");
         if (!ids.insert(in_small(member.id)).second) throw fault(member.id, "is listed twice");
         if (member.takes_part() && !places.emplace(member.group, member.number).second)
             throw fault(member.id,
@@ -98,16 +98,7 @@ std::vector<std::string> needed_facts(const StudyFile& study) {
 }  // namespace
 
 void check_identifier(const std::string& id) {
-    const auto fault = [&](const char* what, const char* remedy) {
-        return Error({"participant", 0}, shortened(id), what, remedy);
-    };
-    const bool word =
-        std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
-    if (id.empty() || !word || id.size() > 32)
-        throw fault("is not an identifier", "Use at most 32 letters and digits, e.g. S07.");
-    if (std::none_of(id.begin(), id.end(), [](unsigned char c) { return std::isdigit(c) != 0; }))
-        throw fault("has no digit, and may be a person's name",
-                    "Use an identifier, e.g. S07, and keep the list of names elsewhere.");
+    check_identifier(id, "participant");
 }
 
 std::string Member::fact(const std::string& name) const {
