@@ -15,12 +15,13 @@
 #include "base/text.h"
 #include "command.h"
 #include "common/stop_signals.h"
+#include "common/study_turn.h"
 #include "escape_key.h"
 #include "person/population.h"
 #include "resume_command.h"
 #include "rig/calibration_guide.h"
 #include "session/listeners/trial_controller.h"
-#include "study_turn.h"
+#include "study/identifier.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -388,8 +389,12 @@ std::string take_turn(SessionOptions& options) {
                     "is not possible for a study, whose files determine it",
                     "Leave it out, or run the experiment itself.");
     }
-    const StudyTurn turn = study_turn(options.request.file, options.run.participant.id,
-                                      options.despite, options.simulate);
+    const auto tell = [](const std::string& line) {
+        fmt::print(line.starts_with("WARNING") ? stderr : stdout, "{}\n", line);
+        std::fflush(stdout);
+    };
+    const app::StudyTurn turn = app::study_turn(options.request.file, options.run.participant.id,
+                                                options.despite, options.simulate, tell);
     options.request.file = turn.experiment;
     options.request.order_number = turn.in_study.number;
     options.request.seed = turn.seed;
@@ -401,7 +406,8 @@ std::string take_turn(SessionOptions& options) {
         throw Error({options.request.file, 0}, "rig", "is simulated: no person can take part",
                     "Name a rig with devices (--rig), or rehearse the session: --simulate.");
     }
-    if (!options.run.partner.id.empty()) study::check_identifier(options.run.partner.id);
+    if (!options.run.partner.id.empty())
+        study::check_identifier(options.run.partner.id, "--partner");
     if (!turn.resume.empty() && !options.run.partner.id.empty())
         throw Error({"--partner", 0}, options.run.partner.id,
                     "is known from the session that is resumed", "Leave it out.");
@@ -431,6 +437,8 @@ void run(SessionOptions& options) {
     const bool task = has_task(options.request.file);
     // only a human participant can be asked
     if (real && task) ask(options.run.participant);
+    if (real && !options.run.participant.id.empty())
+        study::check_identifier(options.run.participant.id, "--participant");
     if (options.simulate && task)
         options.run.participant.id = recording::simulated_id(options.run.participant.id);
     options.request.participant = options.run.participant.id;

@@ -33,8 +33,8 @@ bool has_experiment(const study::StudyFile& study, const std::string& experiment
 }
 
 /// The study with participants to which an experiment belongs: its file is next to the experiment,
-/// or in the folder above, or in `studies` beside the experiment's folder.
-std::optional<study::StudyFile> study_with(const std::string& experiment) {
+/// or in the folder above, or in `studies` beside the experiment's folder. Returned with its path.
+std::optional<std::pair<std::string, study::StudyFile>> study_with(const std::string& experiment) {
     const fs::path here = fs::absolute(experiment).parent_path();
     for (const fs::path& folder : {here, here.parent_path(), here.parent_path() / "studies"}) {
         if (!is_there((folder / "participants.yaml").string())) continue;
@@ -43,7 +43,7 @@ std::optional<study::StudyFile> study_with(const std::string& experiment) {
             try {
                 if (task::kind_of(file.string()) != task::FileKind::study) continue;
                 study::StudyFile study = study::read_study(file.string());
-                if (has_experiment(study, experiment)) return study;
+                if (has_experiment(study, experiment)) return std::pair(file.string(), study);
             } catch (const Error&) {
                 continue;  // `dihaptic check` reports faults of files that are not open
             }
@@ -98,13 +98,16 @@ void KnownPeople::add_recorded() {
 }
 
 void KnownPeople::add_members(const std::string& experiment) {
-    const auto study = study_with(experiment);
-    if (!study) return;
+    const auto found = study_with(experiment);
+    if (!found) return;
+    study_file_ = found->first;
+    const study::StudyFile* const study = &found->second;
     study_ = study->title;
     for (const study::Member& member : study::read_roster(*study).participants) {
         KnownPerson& known = person(member.id);
         known.participant = {member.id, member.age, member.sex, member.handedness};
         known.group = member.group;
+        known.member = member.takes_part();
         const std::vector<study::Visit> visits = session::visits_of(*study, member);
         known.day = next_session(*study, member, visits);
         for (const study::Visit& visit : visits) {
@@ -120,13 +123,20 @@ KnownPerson& KnownPeople::person(const std::string& id) {
     const auto found = std::ranges::find_if(
         people_, [&](const KnownPerson& known) { return known.participant.id == id; });
     if (found != people_.end()) return *found;
-    return people_.emplace_back(KnownPerson{{id, "", "", ""}, "", "", "", ""});
+    KnownPerson& added = people_.emplace_back();
+    added.participant.id = id;
+    return added;
 }
 
 const KnownPerson* KnownPeople::find(const std::string& id) const {
     const auto found = std::ranges::find_if(
         people_, [&](const KnownPerson& known) { return known.participant.id == id; });
     return found == people_.end() ? nullptr : &*found;
+}
+
+std::string KnownPeople::study_of(const std::string& id) const {
+    const KnownPerson* const known = find(id);
+    return known != nullptr && known->member ? study_file_ : "";
 }
 
 std::vector<std::string> KnownPeople::identifiers() const {

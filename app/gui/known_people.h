@@ -17,6 +17,7 @@ struct KnownPerson {
     std::string title;      ///< title of the last session's experiment
     std::string group;      ///< group in the study or, if it is concealed, its code
     std::string day;        ///< next session in the study; "" if all are complete
+    bool member = false;    ///< whether the person takes part in the study
     bool complete = false;  ///< whether the person has a complete session of the open experiment
 };
 
@@ -32,6 +33,8 @@ class KnownPeople {
     std::vector<std::string> identifiers() const;
     /// Title of the study to which the experiment belongs; "" if there is none.
     const std::string& study() const { return study_; }
+    /// The file of the study in which this person takes part; "" if there is none.
+    std::string study_of(const std::string& id) const;
     /// The person's unfinished session of the open experiment; nullopt if there is none.
     std::optional<session::Unfinished> unfinished(const std::string& id) const;
 
@@ -40,7 +43,7 @@ class KnownPeople {
     void add_members(const std::string& experiment);
     KnownPerson& person(const std::string& id);
 
-    std::string out_, title_, study_;
+    std::string out_, title_, study_, study_file_;
     std::vector<KnownPerson> people_;
 };
 

@@ -1,14 +1,18 @@
 // The operator's window: the steps before a session, up to its start.
 #include "operator_window.h"
 
+#include <fmt/format.h>
+
 #include <QDate>
 #include <QDateTime>
 #include <QDir>
 #include <QLocale>
 #include <QMessageBox>
 #include <QPushButton>
+#include <filesystem>
 #include <limits>
 
+#include "common/study_turn.h"
 #include "rig/calibration_guide.h"
 
 namespace dihaptic::gui {
@@ -107,13 +111,55 @@ void OperatorWindow::start_checked() {
 
 void OperatorWindow::start_trials() {
     const session::Plan& plan = *control_.plan();
-    auto* dialog = new ParticipantDialog(
-        KnownPeople(control_.out().toStdString(), plan.title, control_.file().toStdString()),
-        task::needs_number(plan.task->task), this);
+    const KnownPeople known(control_.out().toStdString(), plan.title,
+                            control_.file().toStdString());
+    auto* dialog = new ParticipantDialog(known, task::needs_number(plan.task->task), this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    connect(dialog, &QDialog::accepted, this,
-            [this, dialog] { begin_or_go_on(dialog->participant()); });
+    connect(dialog, &QDialog::accepted, this, [this, dialog, known] {
+        const recording::Participant participant = dialog->participant();
+        const std::string study = known.study_of(participant.id);
+        if (study.empty()) return begin_or_go_on(participant);
+        begin_in_study(study, participant);
+    });
     dialog->open();
+}
+
+void OperatorWindow::begin_in_study(const std::string& study,
+                                    const recording::Participant& participant) {
+    if (!control_.may(SessionControl::Act::prepare) || !composer_->save()) return;
+    const auto told = [this](const std::string& line) { log(QString::fromStdString(line)); };
+    QString why;
+    try {
+        if (!rig::is_real(control_.plan()->rig))
+            throw Error({control_.file().toStdString(), 0}, "rig", "is simulated",
+                        "Choose a rig with devices.");
+        const app::StudyTurn turn = app::study_turn(study, participant.id, "", false, told);
+        std::error_code failed;
+        if (!std::filesystem::equivalent(turn.experiment, control_.file().toStdString(), failed))
+            throw Error({turn.experiment, 0}, turn.in_study.session,
+                        fmt::format("is the next session of {}", participant.id),
+                        "Open this file.");
+        session::Request wanted = request();
+        wanted.order_number = turn.in_study.number;
+        wanted.seed = turn.seed;
+        turn.log_begin();
+        return control_.begin(wanted, {turn.participant, false, 1, turn.in_study, turn.out},
+                              turn.resume);
+    } catch (const Error& e) {
+        why = QString::fromStdString(e.problems().front().text());
+    }
+    auto* box = new QMessageBox(this);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setWindowTitle(tr("Outside the study?"));
+    box->setText(tr("%1 takes part in the study, but this session would not count in it:\n\n%2")
+                     .arg(QString::fromStdString(participant.id), why));
+    const QPushButton* const outside =
+        box->addButton(tr("Start &outside the study"), QMessageBox::DestructiveRole);
+    box->setDefaultButton(box->addButton(QMessageBox::Cancel));
+    connect(box, &QMessageBox::buttonClicked, this, [=, this](const QAbstractButton* pressed) {
+        if (pressed == outside) begin_or_go_on(participant);
+    });
+    box->open();
 }
 
 void OperatorWindow::begin_or_go_on(const recording::Participant& participant) {

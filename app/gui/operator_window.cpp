@@ -224,6 +224,8 @@ void OperatorWindow::connect_session() {
         reload();
     });
     connect(session_, &SessionPanel::start_requested, this, &OperatorWindow::start);
+    connect(session_, &SessionPanel::report_requested, this,
+            [this] { report(control_.recorded()); });
     connect(session_, &SessionPanel::note_written, scene_, [this] { scene_->setFocus(); });
     connect(&control_, &SessionControl::logged, this, &OperatorWindow::log);
     connect(&control_, &SessionControl::opened, this, &OperatorWindow::show_opened);

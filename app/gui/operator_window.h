@@ -25,6 +25,7 @@ namespace dihaptic::gui {
 
 class PlotsPanel;
 class ParticipantMirror;
+class Reporter;
 class TrialsPanel;
 class TuningPanel;
 
@@ -93,6 +94,8 @@ class OperatorWindow : public QMainWindow {
     /// Lists the recorded sessions in the middle of the window.
     void look_at_sessions();
     void play_sessions(const QStringList& folders);
+    /// Writes the report of a session, and shows it in the browser. `folder`: "" if there is none.
+    void report(const QString& folder);
     void reload();
     /// Shows where a clicked body is defined in the text.
     void pick(size_t body);
@@ -123,6 +126,9 @@ class OperatorWindow : public QMainWindow {
     void start_trials();
     /// If the person has an unfinished session, offers to continue it.
     void begin_or_go_on(const recording::Participant& participant);
+    /// Starts the next session that a study has for the participant, as `dihaptic run STUDY` does.
+    /// If the study's rules are against it, says so, and offers a session outside the study.
+    void begin_in_study(const std::string& study, const recording::Participant& participant);
     /// Saves the text, and starts a session with SessionControl::begin().
     void begin(const recording::Participant& participant, const std::string& resumes = "");
     void prepare(const session::Plan& plan, session::RunOptions& options);
@@ -156,6 +162,7 @@ class OperatorWindow : public QMainWindow {
     SessionControl control_;
     ParticipantWindows participants_;
     Calibrator* calibrator_;
+    Reporter* reporter_ = nullptr;
     Modes* modes_;
     NewFiles* new_files_;
     QStackedWidget* centre_;

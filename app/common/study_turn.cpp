@@ -1,14 +1,12 @@
-#include "study_turn.h"
+#include "common/study_turn.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/checksum.h"
 #include "base/number.h"
 #include "base/regular_file.h"
-#include "common/console.h"
 
-namespace dihaptic::cli {
+namespace dihaptic::app {
 namespace {
 
 const study::Member& member_of(const study::StudyFile& study, const study::Roster& roster,
@@ -31,14 +29,14 @@ const study::Member& member_of(const study::StudyFile& study, const study::Roste
 }
 
 /// The participant's next step in the study, whether allowed or not.
-study::Next next_of(const study::StudyFile& study, const study::Member& member, bool simulated) {
+study::Next next_of(const study::StudyFile& study, const study::Member& member, bool simulated,
+                    const std::function<void(const std::string&)>& tell) {
     const study::StudyFile where = simulated ? session::rehearsed(study) : study;
     auto visits = session::visits_of(where, member);
-    const auto tell = [](const std::string& folder) {
-        fmt::print("{} was killed: it is recovered\n", folder);
-        std::fflush(stdout);
+    const auto tell_killed = [&](const std::string& folder) {
+        tell(fmt::format("{} was killed: it is recovered", folder));
     };
-    if (session::recover_killed(visits, tell)) visits = session::visits_of(where, member);
+    if (session::recover_killed(visits, tell_killed)) visits = session::visits_of(where, member);
     study::Next next = study::next_for(study, visits, study::seconds_of(recording::iso_now()));
     // simulated sessions follow one another without a pause
     if (simulated && next.act == study::Act::begin) next.against.clear();
@@ -50,7 +48,8 @@ study::Next next_of(const study::StudyFile& study, const study::Member& member, 
 }
 
 void check_allowed(const study::StudyFile& study, const study::Member& member,
-                   const study::Next& next, const std::string& despite, bool simulated) {
+                   const study::Next& next, const std::string& despite, bool simulated,
+                   const std::function<void(const std::string&)>& tell) {
     if (next.act == study::Act::none) {
         throw Error({"--participant", 0}, member.id,
                     fmt::format("has completed all {} sessions", study.sessions.size()),
@@ -62,7 +61,7 @@ void check_allowed(const study::StudyFile& study, const study::Member& member,
     if (!despite.empty()) {
         study::log(study, simulated ? "simulate despite" : "despite", member.id,
                    fmt::format("{}: {}; {}", name, why, despite));
-        fmt::print(stderr, "WARNING: {} begins despite the study's rules: {}\n", name, why);
+        tell(fmt::format("WARNING: {} begins despite the study's rules: {}", name, why));
         return;
     }
     throw Error({"--participant", 0}, member.id, fmt::format("may not begin {}: {}", name, why),
@@ -77,13 +76,14 @@ void StudyTurn::log_begin() const {
 }
 
 StudyTurn study_turn(const std::string& file, const std::string& participant,
-                     const std::string& despite, bool simulated) {
+                     const std::string& despite, bool simulated,
+                     const std::function<void(const std::string&)>& tell) {
     const study::StudyFile study = study::read_study(file);
     const study::StudyLock lock(study);
     const study::Roster roster = study::read_roster(study);
     const study::Member& member = member_of(study, roster, file, participant);
-    const study::Next next = next_of(study, member, simulated);
-    check_allowed(study, member, next, despite, simulated);
+    const study::Next next = next_of(study, member, simulated, tell);
+    check_allowed(study, member, next, despite, simulated, tell);
     StudyTurn out;
     out.experiment = study.experiment_of(next.session, member.group, member.number);
     session::check_unchanged(study, session::present_version(study));
@@ -95,14 +95,14 @@ StudyTurn study_turn(const std::string& file, const std::string& participant,
     const std::string& name = out.in_study.session;
     out.person_seed = study::seed_of(fmt::format("{}/{}", study.allocation.seed, member.id));
     out.seed = study::seed_of(fmt::format("{}/{}/{}", study.allocation.seed, member.id, name));
-    if (!next.note.empty()) fmt::print("note: {}\n", next.note);
-    fmt::print("{}: {} of {}, session {} of {}{}\n", study.title, member.id,
-               study.allocation.concealed ? "a concealed group" : "group " + member.group,
-               next.session + 1, study.sessions.size(),
-               out.resume.empty() ? ": " + name : fmt::format(": {} is resumed", name));
+    if (!next.note.empty()) tell("note: " + next.note);
+    tell(fmt::format("{}: {} of {}, session {} of {}{}", study.title, member.id,
+                     study.allocation.concealed ? "a concealed group" : "group " + member.group,
+                     next.session + 1, study.sessions.size(),
+                     out.resume.empty() ? ": " + name : fmt::format(": {} is resumed", name)));
     out.study = study;
     out.simulated = simulated;
     return out;
 }
 
-}  // namespace dihaptic::cli
+}  // namespace dihaptic::app

@@ -1,12 +1,13 @@
-// Finds a participant's next session in a study.
+// Finds a participant's next session in a study, for the command line and for the window.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "recording/session.h"
 #include "session/study_session.h"
 
-namespace dihaptic::cli {
+namespace dihaptic::app {
 
 /// What a study says about a participant's next session.
 struct StudyTurn {
@@ -28,8 +29,10 @@ struct StudyTurn {
 /// Finds the next session of a participant, or of the simulated person who takes the participant's
 /// place. `despite`: reason for starting a session against the study's rules, which is written to
 /// the log; if empty, such a session is refused. Throws Error when no session may begin now (the
-/// message gives the numbers that rule it out), or when the study's files have changed.
+/// message gives the numbers that rule it out), or when the study's files have changed. `tell`:
+/// called with each line for the operator.
 StudyTurn study_turn(const std::string& file, const std::string& participant,
-                     const std::string& despite, bool simulated);
+                     const std::string& despite, bool simulated,
+                     const std::function<void(const std::string& line)>& tell);
 
-}  // namespace dihaptic::cli
+}  // namespace dihaptic::app
