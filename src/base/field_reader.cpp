@@ -21,6 +21,23 @@ std::vector<std::string> keys_of(const std::string& name, Quantity quantity) {
     return keys;
 }
 
+/// The keys of a field in short, e.g. "size_m/mm/cm".
+std::string short_keys(const std::string& name, Quantity quantity) {
+    std::vector<std::string_view> suffixes;
+    for (const Unit& unit : units(quantity)) suffixes.push_back(unit.suffix);
+    return suffixes.empty() ? name : fmt::format("{}_{}", name, fmt::join(suffixes, "/"));
+}
+
+/// The key that was probably meant: one that begins with the word, which may be half typed, or else
+/// the nearest; "" if there is none.
+std::string key_meant(const std::string& word, const std::vector<std::string>& keys) {
+    constexpr size_t kLeast = 3;  // letters
+    for (const std::string& key : keys) {
+        if (word.size() >= kLeast && key.starts_with(word)) return key;
+    }
+    return nearest(word, keys);
+}
+
 std::string alternatives(const std::vector<std::string>& words) {
     if (words.size() == 1) return words.front();
     return fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());
@@ -463,7 +480,7 @@ void FieldReader::finish() {
     for (const auto& [key, node] : mapping_.entries) {
         if (used_.contains(key)) continue;
         const Known* field = nullptr;
-        std::vector<std::string> known;
+        std::vector<std::string> known, in_short;
         for (const Known& candidate : fields_) {
             const bool same = key == candidate.name || (candidate.quantity != Quantity::none &&
                                                         key.starts_with(candidate.name + "_"));
@@ -471,6 +488,7 @@ void FieldReader::finish() {
                 field = &candidate;
             for (std::string& name : keys_of(candidate.name, candidate.quantity))
                 known.push_back(std::move(name));
+            in_short.push_back(short_keys(candidate.name, candidate.quantity));
         }
         if (field != nullptr) {
             const bool bare = key == field->name;
@@ -490,10 +508,11 @@ void FieldReader::finish() {
             diagnostics_.unknown_key(node.place, key, "");
             continue;
         }
-        const std::string guess = nearest(key, known);
+        const std::string guess = key_meant(key, known);
         diagnostics_.unknown_key(node.place, key,
-                                 guess.empty() ? fmt::format("Known: {}.", fmt::join(known, ", "))
-                                               : fmt::format("Did you mean {}?", guess),
+                                 guess.empty()
+                                     ? fmt::format("Known: {}.", fmt::join(in_short, ", "))
+                                     : fmt::format("Did you mean {}?", guess),
                                  choices());
     }
 }

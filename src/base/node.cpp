@@ -5,9 +5,11 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "base/number.h"
 #include "base/text.h"
@@ -340,6 +342,24 @@ bool ends_with_question(const std::string& text, int line) {
            one.find("? }") != std::string::npos || one.find("?]") != std::string::npos;
 }
 
+/// The line before `line` that has a text, if that text is a lone word: a key that is being typed,
+/// which YAML takes for a text, so that it complains about the line after it. Returns the word and
+/// its line, or "" if there is none. Lines are counted from 0.
+std::pair<std::string, int> lone_word_before(const std::string& text, int line) {
+    std::istringstream in(text);
+    std::string one, last;
+    int at = 0;
+    for (int i = 0; i < line && std::getline(in, one); ++i) {
+        const size_t begin = one.find_first_not_of(' ');
+        if (begin == std::string::npos || one[begin] == '#') continue;
+        last = one.substr(begin, one.find_last_not_of(" \r") + 1 - begin);
+        at = i;
+    }
+    const auto in_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+    if (!std::ranges::all_of(last, in_word)) last.clear();
+    return {last, at};
+}
+
 }  // namespace
 
 Node parse_yaml(const std::string& text, const std::string& file, Words words) {
@@ -352,6 +372,10 @@ Node parse_yaml(const std::string& text, const std::string& file, Words words) {
         }
         return builder.take();
     } catch (const YAML::Exception& e) {
+        const auto [word, line] = lone_word_before(text, e.mark.line);
+        if (!word.empty() && e.msg == YAML::ErrorMsg::MAP_VALUE)
+            throw Error({file, line + 1}, word, "is a key without a value",
+                        fmt::format("Write e.g. {}: 1, with a colon.", word));
         throw Error({file, e.mark.line + 1}, "", "is not YAML: " + e.msg,
                     ends_with_question(text, e.mark.line)
                         ? "Put a text that ends with a question mark in quotes."

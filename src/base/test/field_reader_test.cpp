@@ -248,6 +248,23 @@ TEST(Node, ReportsBrokenYamlWithItsLine) {
     }
 }
 
+TEST(Node, ReportsAKeyThatIsBeingTypedInItsLine) {
+    const auto said = [](const std::string& yaml) {
+        try {
+            parse_yaml(yaml, "typed.yaml");
+        } catch (const Error& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(
+        said("a: 1\nmas\n# a remark\n\nb: 2\n"),
+        "typed.yaml:2: error: mas: is a key without a value. Write e.g. mas: 1, with a colon.");
+    EXPECT_TRUE(said("a: 1\nb\nc: [1, 2\nd: 3\n").starts_with("typed.yaml:")) << "another mistake";
+    EXPECT_NE(said("a:\n  - left\n  b: 2\n").find("is not YAML"), std::string::npos)
+        << "left is an item of a list, not a key";
+}
+
 TEST(Node, RefusesAKeyGivenTwice) {
     try {
         parse_yaml("a: 1\nb: 2\na: 3\n", "twice.yaml");
