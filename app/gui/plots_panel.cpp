@@ -7,7 +7,6 @@
 
 #include "base/palette.h"
 #include "frame/displayed.h"
-#include "task/plan/levels.h"
 #include "theme.h"
 #include "view/colours.h"
 
@@ -44,7 +43,7 @@ void extend(std::vector<Vec3>& path, const Vec3& point) {
 }  // namespace
 
 PlotKind plot_kind(const session::Plan& plan) {
-    if (plan.task && !task::levels_of(plan.task->task).empty()) return PlotKind::threshold;
+    if (plan.task && !plan.task->task.procedures.empty()) return PlotKind::threshold;
     if (plan.task && plan.task->task.reach) return PlotKind::reach;
     const bool grasps =
         plan.scene.object_index() >= 0 && scene::finger_names(plan.scene).size() > 1;

@@ -35,6 +35,20 @@ std::vector<Number> numbers_of(const task::TaskPlan& plan) {
     return out;
 }
 
+/// The columns of trials.csv that the panel adds: the measures, which begin with `first`, and
+/// before them the share of the perturbation, if a procedure chooses it.
+std::vector<size_t> columns_of_figures(const Table& trials, size_t first,
+                                       const task::TaskPlan& plan) {
+    std::vector<size_t> out;
+    const bool shares =
+        std::ranges::any_of(plan.task.procedures, [](const auto& p) { return p.level.empty(); });
+    const auto share = std::ranges::find(trials.columns, "share", &Table::Column::name);
+    if (shares && share != trials.columns.end())
+        out.push_back(static_cast<size_t>(share - trials.columns.begin()));
+    for (size_t i = first; i < trials.columns.size(); ++i) out.push_back(i);
+    return out;
+}
+
 }  // namespace
 
 TrialsPanel::TrialsPanel(QWidget* parent)
@@ -185,20 +199,20 @@ void TrialsPanel::set_figures(const Table& trials) {
     };
     const size_t trial = place("trial_num"), attempt = place("attempt");
     const size_t shown = place("peak_force_N");  // already shown, like all columns before it
-    const size_t first = shown + 1;
     if (!plan_ || trials.rows.empty() || std::max({trial, attempt, shown}) == trials.columns.size())
         return;
     const auto number = [](const Table::Cell& cell) {
         const double* const value = std::get_if<double>(&cell);
         return value == nullptr ? kUnmeasured : *value;
     };
+    const std::vector<size_t> columns = columns_of_figures(trials, shown + 1, *plan_);
     for (const std::vector<Table::Cell>& row : trials.rows) {
         Figures& figures =
             found_[{static_cast<int>(number(row[trial])), static_cast<int>(number(row[attempt]))}];
         figures.clear();
-        for (size_t i = first; i < row.size(); ++i) figures.push_back(number(row[i]));
+        for (const size_t i : columns) figures.push_back(number(row[i]));
     }
-    if (figures_.isEmpty()) name_figures(trials, first);
+    if (figures_.isEmpty()) name_figures(trials, columns);
     for (size_t row = 0; row < ends_.size(); ++row) fill_in(row);
     for (int i = 0; i < figures_.size(); ++i) {
         const int column = own_columns() + i;
@@ -215,8 +229,8 @@ void TrialsPanel::set_figures(const Table& trials) {
 }
 
 /// Adds a column for each measured number.
-void TrialsPanel::name_figures(const Table& trials, size_t first) {
-    for (size_t i = first; i < trials.columns.size(); ++i) {
+void TrialsPanel::name_figures(const Table& trials, const std::vector<size_t>& columns) {
+    for (const size_t i : columns) {
         const Table::Column& column = trials.columns[i];
         figures_ += QString::fromStdString(column.name);
         const int at = own_columns() + static_cast<int>(figures_.size()) - 1;

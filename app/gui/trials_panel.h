@@ -38,7 +38,7 @@ class TrialsPanel : public QWidget {
     /// Plots a column of numbers in the chart.
     void chart(int column);
     double value(size_t row, int column) const;
-    void name_figures(const Table& trials, size_t first);
+    void name_figures(const Table& trials, const std::vector<size_t>& columns);
     void fill_in(size_t row);
     int own_columns() const;
     bool tells(int column) const;

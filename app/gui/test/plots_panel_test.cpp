@@ -33,6 +33,8 @@ TEST_F(PlotsPanelTest, TheTaskChoosesThem) {
     EXPECT_EQ(plot_kind(plan_for("experiments/first-trials.yaml")), PlotKind::lift);
     EXPECT_EQ(plot_kind(plan_for("scenes/block-on-table.yaml")), PlotKind::lift);
     EXPECT_EQ(plot_kind(plan_for("experiments/grating-roughness.yaml")), PlotKind::threshold);
+    EXPECT_EQ(plot_kind(plan_for("experiments/visual-scaling.yaml")), PlotKind::threshold)
+        << "its procedures choose shares of perturbations";
 }
 
 TEST_F(PlotsPanelTest, AreHighEnoughToBeReadAndNamedInWords) {
