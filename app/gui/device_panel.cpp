@@ -14,11 +14,12 @@ namespace dihaptic::gui {
 namespace {
 
 struct DeviceColumn {
-    // in a narrow window, the last one is what need not be seen
     enum { finger, force, bar, status, model, count };
 };
 
-constexpr int kStatus = 12;  // width of the column [characters]
+constexpr int kStatus = 12;        // width of the column [characters]
+constexpr int kLoadBar = 48;       // width of the column [pixels]
+constexpr int kWidestTable = 450;  // the table takes no more room from the panel beside it [pixels]
 
 QString words(uint32_t status) {
     return status == 0 ? QObject::tr("OK") : QString::fromStdString(dihaptic::words(status));
@@ -37,6 +38,7 @@ DevicePanel::DevicePanel(QWidget* parent)
     table_->setSelectionMode(QAbstractItemView::NoSelection);
     loop_->setWordWrap(true);
     auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(space::kTight, space::kTight, space::kTight, space::kTight);
     layout->addWidget(table_);
     layout->addWidget(loop_);
 }
@@ -60,9 +62,24 @@ void DevicePanel::set_devices(const std::vector<Device>& devices) {
         show_force(i, 0);
     }
     table_->resizeColumnsToContents();
-    table_->setColumnWidth(DeviceColumn::status, kStatus * fontMetrics().averageCharWidth());
-    table_->setColumnWidth(DeviceColumn::force, 100);
-    table_->setColumnWidth(DeviceColumn::bar, 80);
+    // wide enough for what the columns will show, and for their headings
+    const auto widen = [this](int column, int width) {
+        table_->setColumnWidth(column, std::max(table_->columnWidth(column), width));
+    };
+    widen(DeviceColumn::status, kStatus * fontMetrics().averageCharWidth());
+    widen(DeviceColumn::force,
+          fontMetrics().horizontalAdvance("00.00 / 00.0 N") + 2 * space::kUsual);
+    table_->setColumnWidth(
+        DeviceColumn::bar,
+        std::max(kLoadBar, table_->horizontalHeader()->sectionSizeHint(DeviceColumn::bar)));
+    // the last column is stretched, so that its own width says nothing
+    int width = 2 * table_->frameWidth() +
+                static_cast<QAbstractItemView*>(table_)->sizeHintForColumn(DeviceColumn::model);
+    for (int i = 0; i < DeviceColumn::model; ++i) width += table_->columnWidth(i);
+    width += space::kUsual;
+    table_->horizontalHeader()->setStretchLastSection(width <= kWidestTable);
+    if (width > kWidestTable) table_->resizeColumnToContents(DeviceColumn::model);
+    table_->setMinimumWidth(std::min(width, kWidestTable));
 }
 
 void DevicePanel::show_force(int device, double force) {

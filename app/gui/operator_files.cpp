@@ -82,6 +82,7 @@ void OperatorWindow::save_as() {
 void OperatorWindow::choose_session() {
     auto* dialog = new SessionsDialog(control_.out(), this);
     connect(dialog, &SessionsDialog::chosen, this, &OperatorWindow::play_sessions);
+    connect(dialog, &SessionsDialog::report_requested, this, &OperatorWindow::report);
     dialog->open();
 }
 
@@ -129,7 +130,8 @@ void OperatorWindow::show_mode(Mode mode) {
 
 void OperatorWindow::look_at_sessions() {
     auto* list = new SessionsDialog(control_.out());
-    list->setWindowFlags(Qt::Widget);
+    list->embed();
+    connect(list, &SessionsDialog::report_requested, this, &OperatorWindow::report);
     connect(list, &SessionsDialog::chosen, this, &OperatorWindow::play_sessions);
     // opening a session ends the list, as it would end a dialog
     connect(list, &QDialog::finished, this, [this](int result) {

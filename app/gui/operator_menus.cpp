@@ -61,23 +61,25 @@ void OperatorWindow::add_new_files(QMenu& menu) {
 void OperatorWindow::add_recordings(QMenu& menu) {
     menu.addAction(tr("Recorded &sessions ..."), QKeySequence("Ctrl+Shift+O"), this,
                    &OperatorWindow::choose_session);
-    auto* reporter = new Reporter(this);
-    connect(reporter, &Reporter::failed, this, [this](const QString& why) { log(why, true); });
-    connect(reporter, &Reporter::written, this, [this](const QString& page) {
+    reporter_ = new Reporter(this);
+    connect(reporter_, &Reporter::failed, this, [this](const QString& why) { log(why, true); });
+    connect(reporter_, &Reporter::written, this, [this](const QString& page) {
         log(tr("report: %1").arg(page));
         QDesktopServices::openUrl(QUrl::fromLocalFile(QFileInfo(page).absoluteFilePath()));
     });
     menu.addAction(tr("Re&port of the last session"), QKeySequence("Ctrl+R"), this,
-                   [this, reporter] {
-                       if (!control_.recorded().isEmpty())
-                           return reporter->write(control_.recorded());
-                       log(tr("There is no session of this file to report yet."));
-                   });
+                   [this] { report(control_.recorded()); });
     menu.addAction(tr("&Folder of sessions"), this, [this] {
         QDir().mkpath(control_.out());
         QDesktopServices::openUrl(QUrl::fromLocalFile(QDir(control_.out()).absolutePath()));
     });
     menu.addAction(tr("&Where sessions go ..."), this, &OperatorWindow::choose_folder);
+}
+
+void OperatorWindow::report(const QString& folder) {
+    if (folder.isEmpty()) return log(tr("There is no session of this file to report yet."));
+    log(tr("The report of %1 is being drawn; the browser shows it.").arg(folder));
+    reporter_->write(folder);
 }
 
 void OperatorWindow::make_edit_menu() {

@@ -18,6 +18,7 @@
 #include "base/text_file.h"
 #include "note_dialog.h"
 #include "recording/raw_log.h"
+#include "recording/remarks.h"
 #include "recording/seal.h"
 #include "recording/session.h"
 #include "rows/lift_row.h"
@@ -88,10 +89,16 @@ QString changes_of(const recording::SessionFolder& folder, const recording::Sess
     return out.join('\n');
 }
 
-QString note_of(const QString& session) {
+/// The note about the session, and those that the operator made while it ran, a line each.
+QString notes_of(const QString& session) {
     const std::string file = (session + "/" + kNoteFile).toStdString();
     try {
-        return is_there(file) ? QString::fromStdString(read_text_file(file)).trimmed() : "";
+        QStringList out;
+        if (is_there(file)) out += QString::fromStdString(read_text_file(file)).trimmed();
+        for (const recording::Remark& remark :
+             recording::read_remarks(recording::SessionFolder::open_tables(session.toStdString())))
+            out += QString::fromStdString(recording::describe(remark));
+        return out.join('\n');
     } catch (const Error&) {
         return "?";
     }
@@ -131,9 +138,16 @@ SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
     note_->setAutoDefault(false);
     note_->setToolTip(tr("Kept in the session's folder, and in its report"));
     connect(note_, &QPushButton::clicked, this, &SessionsDialog::write_note);
+    report_ = buttons->addButton(tr("&Report"), QDialogButtonBox::ActionRole);
+    report_->setAutoDefault(false);
+    report_->setToolTip(tr("Draws the session's figures, and shows them in the browser"));
+    connect(report_, &QPushButton::clicked, this, [this] {
+        if (const QTreeWidgetItem* const item = list_->currentItem())
+            Q_EMIT report_requested(item->data(0, Qt::UserRole).toString());
+    });
+    close_ = buttons->button(QDialogButtonBox::Close);
     open_ = buttons->button(QDialogButtonBox::Open);
-    open_->setEnabled(false);
-    note_->setEnabled(false);
+    for (QPushButton* button : {open_, note_, report_}) button->setEnabled(false);
     waiting_ =
         QDir(folder).entryInfoList(QDir::Dirs | QDir::NoDotAndDotDot, QDir::Name | QDir::Reversed);
     connect(&filling_, &QTimer::timeout, this, &SessionsDialog::fill_one);
@@ -142,6 +156,11 @@ SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(list_, &QTreeWidget::itemActivated, this, &SessionsDialog::choose);
     resize(1000, 480);
+}
+
+void SessionsDialog::embed() {
+    setWindowFlags(Qt::Widget);
+    close_->hide();
 }
 
 /// Adds the next session to the list. Only one is added per call, because a running session
@@ -169,15 +188,14 @@ void SessionsDialog::fill_one() {
         list_, {QString::fromStdString(info.started).left(16).replace('T', ' '),
                 QString::fromStdString(info.title), QString::fromStdString(info.participant.id),
                 in_words(info.moved_by.name()), state, time, trials_in(path), lifts_in(path),
-                note_of(path), entry.fileName()});
+                notes_of(path), entry.fileName()});
     item->setToolTip(SessionColumn::note, item->text(SessionColumn::note));
     item->setToolTip(SessionColumn::state, changed);
     item->setData(0, Qt::UserRole, path);
     for (const int number : {SessionColumn::lasted, SessionColumn::trials, SessionColumn::lifts})
         item->setTextAlignment(number, Qt::AlignRight | Qt::AlignVCenter);
     filter(*item);
-    open_->setEnabled(true);
-    note_->setEnabled(true);
+    for (QPushButton* button : {open_, note_, report_}) button->setEnabled(true);
     if (list_->topLevelItemCount() <= kLooked || waiting_.isEmpty()) fit_columns();
 }
 
@@ -207,8 +225,13 @@ void SessionsDialog::show_whether_empty() {
 }
 
 void SessionsDialog::fit_columns() {
-    for (int column = 0; column < list_->columnCount(); ++column)
+    for (int column = 0; column < list_->columnCount(); ++column) {
+        bool says = false;
+        for (int i = 0; i < list_->topLevelItemCount(); ++i)
+            says |= !list_->topLevelItem(i)->text(column).isEmpty();
+        list_->setColumnHidden(column, !says);  // e.g. lifts, where nobody lifts
         list_->resizeColumnToContents(column);
+    }
     list_->setColumnWidth(SessionColumn::note,
                           std::min(250, list_->columnWidth(SessionColumn::note)));
 }
@@ -230,7 +253,7 @@ void SessionsDialog::write_note() {
     } catch (const Error& e) {
         QMessageBox::warning(this, tr("Note"), QString::fromStdString(e.problems().front().text()));
     }
-    item->setText(SessionColumn::note, note_of(session));
+    item->setText(SessionColumn::note, notes_of(session));
     item->setToolTip(SessionColumn::note, item->text(SessionColumn::note));
     fit_columns();
 }

@@ -19,10 +19,14 @@ class SessionsDialog : public QDialog {
   public:
     /// `folder`: the folder that contains the session folders.
     explicit SessionsDialog(const QString& folder, QWidget* parent = nullptr);
+    /// Shows the list as a part of a window, which cannot be closed.
+    void embed();
 
   Q_SIGNALS:
     /// The user chose to view these session folders.
     void chosen(const QStringList& folders);
+    /// The user chose to see the report of the session in this folder.
+    void report_requested(const QString& folder);
 
   private:
     void fill_one();
@@ -40,6 +44,8 @@ class SessionsDialog : public QDialog {
     QTreeWidget* list_;
     QPushButton* open_;
     QPushButton* note_;
+    QPushButton* report_;
+    QPushButton* close_;
     QString folder_;
     QFileInfoList waiting_;  // session folders that have not been listed yet
     QTimer filling_;

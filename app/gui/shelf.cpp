@@ -8,6 +8,7 @@
 #include <QFileInfo>
 #include <QStandardPaths>
 
+#include "base/node.h"
 #include "edited_file.h"
 #include "session/plan.h"
 
@@ -22,6 +23,18 @@ QString length_of(const session::Plan& plan) {
     }
     if (plan.open_ended()) return "";
     return QString("%1 s").arg(plan.driver->duration(), 0, 'f', 0);
+}
+
+/// The title that a file gives itself, which is found much sooner than its plan; empty if there is
+/// none.
+QString title_in(const QString& file) {
+    try {
+        const Node yaml = read_yaml(file.toStdString());
+        const Node* const title = yaml.find("title");
+        return title == nullptr ? "" : QString::fromStdString(title->scalar);
+    } catch (const Error&) {
+        return "";
+    }
 }
 
 }  // namespace
@@ -47,6 +60,14 @@ void Shelf::read(const QStringList& files) {
     stop();
     to_draw_ = files;
     thread_ = std::jthread([this, files](const std::stop_token& stop) {
+        const auto tell = [this](const QString& file, const QString& title, const QString& length) {
+            QMetaObject::invokeMethod(
+                this, [=, this] { Q_EMIT told(file, title, length); }, Qt::QueuedConnection);
+        };
+        for (const QString& file : files) {
+            if (stop.stop_requested()) return;
+            tell(file, title_in(file), "");
+        }
         for (const QString& file : files) {
             if (stop.stop_requested()) return;
             session::Request request;
@@ -63,8 +84,7 @@ void Shelf::read(const QStringList& files) {
             } catch (const std::exception&) {
                 title = tr("Has a fault, which is reported when the file is opened.");
             }
-            QMetaObject::invokeMethod(
-                this, [=, this] { Q_EMIT told(file, title, length); }, Qt::QueuedConnection);
+            tell(file, title, length);
         }
     });
     draw_next();

@@ -2,8 +2,10 @@
 
 #include <QApplication>
 #include <QColor>
+#include <QPainter>
 #include <QPalette>
-#include <QStyleFactory>
+#include <QProxyStyle>
+#include <QStyleOption>
 #include <algorithm>
 #include <cmath>
 
@@ -28,10 +30,60 @@ double contrast(const QColor& a, const QColor& b) {
     return (light + 0.05) / (dark + 0.05);
 }
 
+/// Fusion, with three changes: fields and boxes have an edge that stands out from the background,
+/// which the style's own does not in the dark; what is chosen among buttons is marked; and buttons
+/// of dialogs have words only, as the style's icons are of another family.
+class PlainFusion : public QProxyStyle {
+  public:
+    PlainFusion() : QProxyStyle("Fusion") {}
+
+    int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                  QStyleHintReturn* data) const override {
+        if (hint == SH_DialogButtonBox_ButtonsHaveIcons) return 0;
+        return QProxyStyle::styleHint(hint, option, widget, data);
+    }
+
+    void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                       const QWidget* widget) const override {
+        QProxyStyle::drawPrimitive(element, option, painter, widget);
+        const bool enabled = (option->state & State_Enabled) != 0;
+        if (element == PE_PanelButtonTool || element == PE_PanelButtonCommand) {
+            if ((option->state & State_On) != 0) mark(*option, *painter);
+        } else if (element == PE_IndicatorCheckBox || element == PE_IndicatorRadioButton) {
+            draw_edge(*option, *painter, element == PE_IndicatorRadioButton);
+        } else if (element == PE_FrameLineEdit && enabled &&
+                   (option->state & State_HasFocus) == 0) {
+            draw_edge(*option, *painter, false);
+        }
+    }
+
+  private:
+    static void mark(const QStyleOption& option, QPainter& painter) {
+        constexpr int kBar = 3;  // height of the bar at the bottom [pixels]
+        const QRect at = option.rect.adjusted(kBar, 0, -kBar, 0);
+        painter.fillRect(QRect(at.left(), at.bottom() - kBar + 1, at.width(), kBar),
+                         option.palette.color(QPalette::Link));
+    }
+    static void draw_edge(const QStyleOption& option, QPainter& painter, bool round) {
+        const QColor grey = legible("#808080");
+        const QRectF at = QRectF(option.rect).adjusted(0.5, 0.5, -0.5, -0.5);
+        painter.save();
+        painter.setRenderHint(QPainter::Antialiasing);
+        painter.setPen(QPen(grey, round ? 1.3 : 1));  // a curve is paler than a straight line
+        painter.setBrush(Qt::NoBrush);
+        if (round) {
+            painter.drawEllipse(at);
+        } else {
+            painter.drawRoundedRect(at, 2, 2);
+        }
+        painter.restore();
+    }
+};
+
 }  // namespace
 
 void set_dark(bool dark) {
-    QApplication::setStyle(QStyleFactory::create("Fusion"));
+    QApplication::setStyle(new PlainFusion);
     const QColor window = dark ? "#2b2f36" : "#f3f2ef";
     const QColor base = dark ? "#21252b" : "#ffffff";
     const QColor text = dark ? "#e6e6e3" : "#20242a";

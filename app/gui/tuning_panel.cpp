@@ -31,7 +31,7 @@ void TuningPanel::add(QFormLayout* form, double frame::Knobs::*knob, const frame
     const bool may_be_unset = is.unset != nullptr;
     // an unset knob is stored as one step below the smallest value, and shown as text
     box->setRange(may_be_unset ? is.least - is.step : is.least, is.most);
-    if (may_be_unset) box->setSpecialValueText(tr("automatic: %1").arg(is.unset));
+    if (may_be_unset) box->setSpecialValueText(tr("automatic"));
     box->setSingleStep(is.step);
     box->setDecimals(std::max(0, static_cast<int>(std::ceil(-std::log10(is.step)))));
     if (is.unit != std::string("1")) box->setSuffix(QString(" ") + is.unit);

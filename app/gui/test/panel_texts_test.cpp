@@ -5,14 +5,18 @@
 #include <QAbstractButton>
 #include <QApplication>
 #include <QComboBox>
+#include <QHeaderView>
 #include <QLineEdit>
 #include <QMenu>
 #include <QProgressBar>
+#include <QScrollBar>
+#include <QTableWidget>
 #include <QTemporaryDir>
 #include <QTranslator>
 
 #include "answer_until.h"
 #include "checklist.h"
+#include "device_panel.h"
 #include "modes.h"
 #include "participant_dialog.h"
 #include "session_panel.h"
@@ -148,6 +152,25 @@ TEST_P(PanelTexts, OfOtherPanelsHaveRoom) {
     QMenu menu;
     const std::unique_ptr<QWidget> buttons(modes.make_buttons(menu));
     check(*buttons, "modes");
+}
+
+TEST_P(PanelTexts, OfTheDevicesHaveRoom) {
+    DevicePanel panel;
+    panel.set_devices({{"thumb", "simulated plant", 60}, {"index", "Premium 1.5", 8.5}});
+    check(panel, "devices");
+    panel.rest("force off");
+    const auto& table = *panel.findChild<QTableWidget*>();
+    for (int column = 0; column < table.columnCount(); ++column) {
+        EXPECT_LE(table.horizontalHeader()->sectionSizeHint(column), table.columnWidth(column))
+            << column;
+        for (int row = 0; row < table.rowCount(); ++row) {
+            const QModelIndex cell = table.model()->index(row, column);
+            EXPECT_LE(table.sizeHintForIndex(cell).width(), table.columnWidth(column))
+                << cell.data().toString().toStdString();
+        }
+    }
+    if (GetParam() > 0) return;  // in German, one may have to scroll to the device's name
+    EXPECT_FALSE(table.horizontalScrollBar()->isVisible());
 }
 
 TEST_P(PanelTexts, OfTheParticipantsDialogHaveRoom) {

@@ -4,7 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QCheckBox>
+#include <QImage>
+#include <QLineEdit>
 #include <QPalette>
+#include <QRadioButton>
+#include <QToolButton>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -75,6 +80,36 @@ TEST_P(ThemeTest, ColoursOfDataStandOut) {
     }
     for (const Tone mark : {Tone::good, Tone::bad})
         EXPECT_GE(contrast(tone(mark), colour(QPalette::Window)), kShape);
+}
+
+/// The largest contrast of a pixel of the widget's picture with the window.
+double edge_of(QWidget& widget) {
+    widget.resize(widget.sizeHint());
+    QImage image(widget.size(), QImage::Format_RGB32);
+    widget.render(&image);
+    const QColor paper = QApplication::palette().color(QPalette::Window);
+    double most = 0;
+    for (int x = 0; x < image.width(); ++x) {
+        for (int y = 0; y < image.height(); ++y)
+            most = std::max(most, contrast(image.pixelColor(x, y), paper));
+    }
+    return most;
+}
+
+TEST_P(ThemeTest, WhatIsNotTickedAndWhatIsEmptyHaveAnEdge) {
+    QCheckBox box;
+    QRadioButton button;
+    QLineEdit line;
+    for (QWidget* widget : std::initializer_list<QWidget*>{&box, &button, &line})
+        EXPECT_GE(edge_of(*widget), kShape) << widget->metaObject()->className();
+}
+
+TEST_P(ThemeTest, WhatIsChosenAmongButtonsIsMarked) {
+    QToolButton chosen, other;
+    for (QToolButton* button : {&chosen, &other}) button->setCheckable(true);
+    chosen.setChecked(true);
+    EXPECT_GE(edge_of(chosen), kShape);
+    EXPECT_GT(edge_of(chosen), 1.2 * edge_of(other));
 }
 
 INSTANTIATE_TEST_SUITE_P(InBothThemes, ThemeTest, ::testing::Bool());
