@@ -5,6 +5,7 @@ Usage: gui/by_mouse.py PROGRAM [SCREENSHOTS [CLASS[.TEST]]]
 """
 import collections
 import os
+import pathlib
 import re
 import shutil
 import time
@@ -61,6 +62,50 @@ class ByMouse(Participants):
                 assert count > 0, what
             return text.replace("../rigs", os.getcwd() + "/rigs")
         return self.experiment(name, change)
+
+    def click(self, x, y):
+        self.xdotool("mousemove", str(x), str(y))
+        time.sleep(0.4)
+        self.xdotool("click", "1")
+        time.sleep(0.6)
+
+    def test_from_the_start_page_to_the_report(self):
+        """As somebody does who sees the window for the first time: nothing but what it offers, and no key but the hand's."""
+        self.open_without_a_file()
+        time.sleep(3)
+        self.click(400, 220)  # the second picture: first-trials
+        self.wait("the file", lambda: self.xdotool("getwindowname", self.name).startswith("Five lifts"))
+        self.settle()
+        self.click(1209, 234)  # Start
+        dialog = self.wait("the dialog", self.dialog).split()[-1]
+        time.sleep(0.7)
+        place = dict(line.split("=") for line in self.xdotool("getwindowgeometry", "--shell", dialog).split())
+        left, top, width, height = (int(place[name]) for name in ("X", "Y", "WIDTH", "HEIGHT"))
+        self.xdotool("windowfocus", dialog)
+        self.click(left + width - 55, top + 22)  # New: S01
+        self.click(left + width - 115, top + height - 24)  # Start
+        self.recording()
+        self.xdotool("windowfocus", self.name)
+        time.sleep(1)
+
+        def trial():
+            self.back()
+            self.grip_and_raise(34)
+            time.sleep(1.6)
+            self.shift(0, -38, 0.6)
+            self.hold("v", 0.6)
+            self.back()
+            self.shift(0, 30, 0.3)
+            time.sleep(0.8)
+        outcomes = self.end(trial, 300)
+        self.assertEqual(outcomes["held"], 5, outcomes)
+        self.settle()
+        time.sleep(1)
+        self.screenshot("recorded-by-mouse")
+        self.click(1306, 284)  # Report
+        page = self.wait("the report", self.opened)[-1]
+        self.assertIn("Five lifts", pathlib.Path(page.removeprefix("file://")).read_text())
+        self.quit()
 
     def test_grip_and_lift(self):
         self.open(self.fewer("grip-and-lift", [("repeats: 4", "repeats: 1")]))

@@ -2,30 +2,15 @@
 import glob
 import os
 import pathlib
-import subprocess
 import time
 import unittest
 
-import window
-from window import PROGRAM, Window, patient, starts_programs
+from window import Window, starts_programs
 import soak
 
 
 @starts_programs
 class StartPage(Window):
-    def open_without_a_file(self):
-        self.log = open(self.folder.name + "/log", "w+")
-        self.addCleanup(self.log.close)
-        self.window = subprocess.Popen([PROGRAM, "gui", "--out", self.out], env=self.environment, stdout=self.log,
-                                       stderr=self.log)
-        self.addCleanup(self.window.wait)
-        self.addCleanup(self.window.kill)
-        name = self.wait("the window", lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic$"))
-        self.name = name.split()[-1]
-        self.xdotool("windowmove", self.name, "0", "0", "windowsize", self.name, *self.size.split("x"), "windowfocus",
-                     self.name)
-        time.sleep(1)
-
     def title(self):
         return self.xdotool("getwindowname", self.name).strip()
 

@@ -105,6 +105,19 @@ class Window(unittest.TestCase):
                      "windowfocus", self.name, "mousemove", "450", "450")
         self.settle()
 
+    def open_without_a_file(self):
+        self.log = open(self.folder.name + "/log", "w+")
+        self.addCleanup(self.log.close)
+        self.window = subprocess.Popen([PROGRAM, "gui", "--out", self.out], env=self.environment, stdout=self.log,
+                                       stderr=self.log)
+        self.addCleanup(self.window.wait)
+        self.addCleanup(self.window.kill)
+        name = self.wait("the window", lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic$"))
+        self.name = name.split()[-1]
+        self.xdotool("windowmove", self.name, "0", "0", "windowsize", self.name, *self.size.split("x"), "windowfocus",
+                     self.name)
+        time.sleep(1)
+
     def type(self, text):
         self.xdotool("type", "--delay", "30", "--", text)
 
