@@ -114,7 +114,7 @@ void SessionPanel::connect_control() {
         file_->setToolTip(control_.file());
     });
     connect(&control_, &SessionControl::progressed, this, [this](const SessionProgress& now) {
-        set_trial(now.trial, now.names);
+        if (control_.has_trials()) set_trial(now.trial, now.names);
         set_progress(now.share, now.text);
     });
     connect(&control_, &SessionControl::finishing_progressed, this,
@@ -258,6 +258,7 @@ void SessionPanel::fit_names() {
     // the label's own width says nothing while it is hidden
     const QMargins margins = layout()->contentsMargins();
     const int width = std::max(1, this->width() - margins.left() - margins.right());
+    names_->setMinimumHeight(0);  // else the label would ask for no less than it has
     names_->setFixedHeight(std::max(0, names_->heightForWidth(width)));
 }
 
