@@ -24,6 +24,7 @@ from dihaptic import figures
 from dihaptic.figures import saving
 from dihaptic.reports import page as pages
 from dihaptic.reports import sections, write_page
+from dihaptic.reports.differences import difference
 from dihaptic.reports.models import notes_on_models
 from dihaptic.reports.page import Page, in_short
 from dihaptic.reports.results import results_of, shared_windows, warnings_of, with_spreads
@@ -177,6 +178,47 @@ class Reports(unittest.TestCase):
         self.assertRegex(text, r"Movement time: .*; n = 2 people, 36 trials; averaged over width\.")
         points = pd.read_csv(next((self.here / "compared" / "figures").glob("measures-by-*.csv")))
         self.assertEqual(set(points["group"].dropna()), {"sim-001", "sim-002"})
+        self.assertRegex(text, r"Differences of means, sim-002 less sim-001 \(95 % interval\): movement time: .*no interval.*1 and 1")
+
+    def test_two_groups_have_their_differences(self):
+        for name, people in (("first", ["sim-001", "sim-002"]), ("third", ["sim-003"])):
+            for person in people:
+                shutil.copytree(self.fitts / person, self.here / name / person)
+        trials = pd.concat([pd.read_csv(file) for file in sorted(self.fitts.glob("sim-*/trials.csv"))])
+        trials = trials.drop_duplicates(["ppid", "trial_num"], keep="last")
+        trials = trials[~trials.kind.isin(["practice", "catch"])]
+        each = trials.groupby(["distance_mm", "ppid"]).movement_time_s.mean()
+        text = self.read(write_page([self.here / "first", self.here / "third"], self.here / "of-two").read_text()).text
+        self.assertIn("Differences between groups", text)
+        page = (self.here / "of-two" / "report.html").read_text()
+        for distance in (40, 80, 160):
+            row = re.search(rf"<tr><td>movement time \[s\]</td><td>{distance} mm</td>(.*?)</tr>", page).group(1)
+            mean = each[distance][["sim-001", "sim-002"]].mean()
+            cells = [in_short(mean), in_short(each[distance]["sim-003"]), in_short(each[distance]["sim-003"] - mean), "2 and 1"]
+            self.assertEqual(re.findall(r"<td[^>]*>([^<]*)</td>", row), cells)
+
+    def test_a_difference_is_that_of_pairs_or_welchs(self):
+        random = np.random.default_rng(3)
+        a = pd.Series(random.normal(5, 2, 7), list("abcdefg"))
+        b = pd.Series(random.normal(7, 4, 5), list("mnopq"))
+        found = difference(a, b)
+        statistic = stats.ttest_ind(b, a, equal_var=False).statistic
+        self.assertAlmostEqual(found.value, b.mean() - a.mean(), 12)
+        error = np.sqrt(a.var() / 7 + b.var() / 5)
+        self.assertAlmostEqual(found.value / error, statistic, 10)
+        at_the_end = stats.ttest_ind(b - found.low, a, equal_var=False).pvalue
+        self.assertAlmostEqual(at_the_end, 0.05, 9)  # the ends are what a test at 5 % just does not reject
+        self.assertAlmostEqual(stats.ttest_ind(b - found.high, a, equal_var=False).pvalue, 0.05, 9)
+        again = pd.Series(random.normal(6, 1, 6), list("bcdefz"))
+        paired = difference(a, again)
+        self.assertEqual(paired.n, "5 pairs")
+        pairs = list("bcdef")
+        for end in (paired.low, paired.high):
+            self.assertAlmostEqual(stats.ttest_rel(again[pairs] - end, a[pairs]).pvalue, 0.05, 9)
+        alone = difference(a[:1], b)
+        self.assertTrue(np.isnan(alone.low) and np.isnan(alone.high))
+        same = difference(pd.Series([1.0, 1.0], list("ab")), pd.Series([2.0, 2.0], list("cd")))
+        self.assertEqual((same.low, same.high), (1, 1))
 
     def test_experiments_of_several_folders_are_never_mixed(self):
         for name, parts in (("a", ["sim-001", "sim-002"]), ("b", ["sim-003"])):

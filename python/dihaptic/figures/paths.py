@@ -614,7 +614,8 @@ def _draw_paths(axes: Axes, shown: pd.DataFrame, colours: list[str]) -> None:
     for row in shown[shown["of"] != "path"].itertuples():
         hue = QUIET if row.of == "start" else "#333333"
         if math.isfinite(row.radius_mm):
-            axes.add_patch(Circle((row.across_mm, row.up_mm), row.radius_mm, fill=False, edgecolor=hue, linewidth=0.6))
+            # an artist, since the limits are known; those of a patch are computed, which takes long
+            axes.add_artist(Circle((row.across_mm, row.up_mm), row.radius_mm, fill=False, edgecolor=hue, linewidth=0.6))
         else:
             axes.plot([row.across_mm], [row.up_mm], marker="+", color=hue, markersize=4)
     paths = shown[shown["of"] == "path"]

@@ -12,6 +12,7 @@ from ..figures.conditions import averaged_over, axes_of_design, counting_trials,
 from ..figures.data import WINDOW, Data, sitting_columns
 from ..figures.means import means_with_intervals
 from ..figures.words import counted, label, level, with_unit, words_of
+from .differences import differences_in_words
 from .page import in_short
 from .simulated import limits_of
 
@@ -29,7 +30,8 @@ _MANY_REPEATED = 0.1
 
 def results_of(data: Data) -> list[str]:
     """A sentence for each main result: what was learned, thresholds, answers, the first measures by condition, outcomes."""
-    results = [_learned(data), _thresholds(data), *_answered(data), _fitts(data), *_measured(data), _outcomes(data)]
+    results = [_learned(data), _thresholds(data), *_answered(data), _fitts(data), *_measured(data)]
+    results += [differences_in_words(data), _outcomes(data)]
     return [text for text in results if text]
 
 

@@ -19,6 +19,7 @@ from ..figures.lifts import previous_weight
 from ..figures.means import intervals, means_with_intervals
 from ..figures.quality import missing_values
 from ..figures.words import counted, in_print, label, level, words_of
+from .differences import add_differences
 from .models import models_table, notes_on_models
 from .page import Page, between, in_short, with_interval, without_empty
 from .results import means_of, results_of, warnings_of
@@ -46,6 +47,7 @@ def add_sample(
     (src/analysis/report/report_json.cpp). Raises Error."""
     _facts(page, data, told)
     _result(page, data, told)
+    add_differences(page, data)
     drawn = draw_data(data, figures, jobs=jobs, progress=progress)
     tables: dict[str, Callable[[Page, Data], None]] = {
         "Learning": _learning, "Thresholds": _thresholds, "By condition": _measures, "Grip and lift": _lifts,
