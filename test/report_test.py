@@ -2,6 +2,7 @@
 
 Usage: report_test.py PROGRAM, from the project's folder.
 """
+import contextlib
 import csv
 import glob
 import itertools
@@ -12,6 +13,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import needs
@@ -187,6 +189,35 @@ class Reports(Pages):
         said = dihaptic("report", people + "/sim-001", people + "/sim-002", "--out", parent.name + "/both")
         self.assertIn("/both/report.html; in the folder of each path adaptation.csv, ", said)
         self.assertIn("2 groups (sim-001, sim-002)", self.drawn(parent.name + "/both/report.html"))
+
+    def test_killed_it_leaves_nothing_that_draws(self):
+        session = next(s for s in self.sessions if "S02" in s)
+        shutil.rmtree(session + "/figures", ignore_errors=True)
+        process = subprocess.Popen([PROGRAM, "report", session], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        end = time.monotonic() + patient(60)
+        while not glob.glob(session + "/figures/*.svg") and time.monotonic() < end:  # the first figure is saved
+            time.sleep(0.01)
+        drawing = self.descendants(process.pid)
+        self.assertGreater(len(drawing), 1)
+        process.kill()
+        process.wait()
+        end = time.monotonic() + patient(10)
+        while any(map(self.is_running, drawing)) and time.monotonic() < end:
+            time.sleep(0.05)
+        self.assertEqual([pid for pid in drawing if self.is_running(pid)], [])
+
+    def descendants(self, process):
+        children = []
+        for task in glob.glob(f"/proc/{process}/task/*/children"):
+            with contextlib.suppress(OSError):
+                children += map(int, pathlib.Path(task).read_text().split())
+        return [*children, *(other for child in children for other in self.descendants(child))]
+
+    def is_running(self, process):
+        try:
+            return pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+        except OSError:
+            return False
 
     def test_without_the_python_package_it_says_so(self):
         session = next(s for s in self.sessions if "lift-block" in s)

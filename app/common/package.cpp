@@ -1,5 +1,8 @@
 #include "common/package.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <filesystem>
 
 #include "base/installed.h"
@@ -15,10 +18,13 @@ std::string python_folder() {
 Launch python_launch(const std::string& folder, const std::string& module) {
     // other Pythons, such as Anaconda's, lack the package; -I ignores the current folder, the
     // environment variables and the user's own packages
-    const std::string code_of = "import sys; sys.path.insert(0, sys.argv.pop(1)); from " + module +
-                                " import main; sys.exit(main(sys.argv[1:]))";
+    const std::string code_of =
+        "import sys; sys.path.insert(0, sys.argv.pop(1)); from dihaptic._parent import end_with; "
+        "end_with(int(sys.argv.pop(1))); from " +
+        module + " import main; sys.exit(main(sys.argv[1:]))";
     return {"/usr/bin/env",
-            {"MPLBACKEND=agg", "/usr/bin/python3", "-I", "-c", code_of, folder},
+            {"MPLBACKEND=agg", "/usr/bin/python3", "-I", "-c", code_of, folder,
+             fmt::format("{}", getpid())},
             {Launch::kKept, Launch::kKept, Launch::kKept},
             Launch::kFreshSignals};
 }

@@ -5,10 +5,12 @@ Usage: outside/reports_test.py PROGRAM, from the project's folder.
 import os
 import pathlib
 import re
+import shutil
 import struct
 import sys
 import tempfile
 import unittest
+import unittest.mock
 import warnings
 
 sys.path.append("test/cli")
@@ -20,6 +22,11 @@ import pandas as pd  # noqa: E402
 from scipy import stats  # noqa: E402
 
 from dihaptic import figures  # noqa: E402
+from dihaptic.figures import saving  # noqa: E402
+from dihaptic.reports import write_page  # noqa: E402
+from dihaptic.reports.differences import difference  # noqa: E402
+from dihaptic.reports.page import with_interval  # noqa: E402
+
 
 def experiment(levels):
     """A shipped experiment with these distances, and fewer trials."""
@@ -84,6 +91,82 @@ class Reports(unittest.TestCase):
         self.assertLessEqual(len(said), 1, said)
         for words in said:  # there is a warning if no font has these letters
             self.assertRegex(words, "label: no font of this computer has 触觉, .*Install")
+
+    def test_an_svg_has_no_points_far_away(self):
+        row = {"measure": "threshold_share", "quantity": "period", "unit": "mm", "logarithmic": True, "procedure": "one", "group": ""}
+        points = [{**row, "of": "person", "person": f"p{i}", "n": 1, "value": 2.5 + i} for i in range(3)]
+        points.append({**row, "of": "mean", "n": 3, "value": 3.4, "low": 0.0, "high": 9.0})
+        figures.save(figures.draw_thresholds(pd.DataFrame(points)), self.folder / "thresholds.svg")
+        for file in [*self.figures.glob("*.svg"), self.folder / "thresholds.svg"]:
+            svg = file.read_text()
+            width, height = (float(re.search(rf'<svg[^>]* {side}="([\d.]+)pt"', svg).group(1)) for side in ("width", "height"))
+            paths = re.findall(r' d="([^"]*)"', re.sub(r"<defs>.*?</defs>", "", svg, flags=re.S))
+            numbers = [float(number) for path in paths for number in re.findall(r"-?[\d.]+(?:e[-+]?\d+)?", path)]
+            self.assertLess(max(map(abs, numbers)), 2 * max(width, height), file)
+
+
+class Differences(unittest.TestCase):
+    """Of three people, with movement times that were measured before and after, in folders of other names and orders."""
+
+    #: How much slower each of them is afterwards [s].
+    LATER = {"sim-001": 0.1, "sim-002": 0.2, "sim-003": 0.6}
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        (cls.folder / "distances.yaml").write_text(experiment("100, 20, 50"))
+        done = dihaptic("rehearse", str(cls.folder / "distances.yaml"), "--people", "3", "--out", str(cls.folder / "people"))
+        assert done.returncode == 0, done.stderr
+        cls.before = cls.copies("before", {"sim-001": "a", "sim-002": "b", "sim-003": "c"}, {})
+        cls.after = cls.copies("after", {"sim-003": "a", "sim-001": "b", "sim-002": "c"}, cls.LATER)
+        cls.fewer = cls.copies("fewer", {"sim-002": "a", "sim-001": "b"}, {"sim-001": 0.3, "sim-002": 0.1})
+
+    @classmethod
+    def copies(cls, name, places, later):
+        for person, place in places.items():
+            session = cls.folder / name / place
+            shutil.copytree(cls.folder / "people" / person, session)
+            trials = pd.read_csv(session / "trials.csv")
+            trials["movement_time_s"] += later.get(person, 0)
+            trials.to_csv(session / "trials.csv", index=False)
+        return cls.folder / name
+
+    def compared(self, *paths):
+        """The cells of the row of movement time, and the page."""
+        out = self.folder / "-".join(path.name for path in paths)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            with unittest.mock.patch.object(saving, "FORMATS", ("svg",)):
+                page = write_page(list(paths), out).read_text()
+        self.assertIn("Differences between groups", page)
+        rows = re.findall(r"<tr><td>movement time \[s\]</td><td>100 mm</td>(.*?)</tr>", page)
+        return [re.findall(r"<td[^>]*>([^<]*)</td>", row) for row in rows if "pair" in row]
+
+    def interval(self, values):
+        half = stats.t.ppf(0.975, len(values) - 1) * np.std(values, ddof=1) / np.sqrt(len(values))
+        return with_interval(np.mean(values), np.mean(values) - half, np.mean(values) + half)
+
+    def test_people_are_compared_with_themselves_in_any_order(self):
+        ((*_, found, n),) = self.compared(self.before, self.after)
+        self.assertEqual((found, n), (self.interval(list(self.LATER.values())), "3 pairs"))
+
+    def test_whoever_lacks_one_side_does_not_count(self):
+        ((*_, found, n),) = self.compared(self.before, self.fewer)
+        self.assertEqual((found, n), (self.interval([0.3, 0.1]), "2 pairs"))
+
+    def test_whoever_lacks_a_third_group_counts_in_the_first_two(self):
+        rows = self.compared(self.before, self.after, self.fewer)
+        self.assertEqual([row[-1] for row in rows], ["3 pairs", "2 pairs"])
+        self.assertEqual(rows[0][-2], self.interval(list(self.LATER.values())))
+
+    def test_freedom_is_that_of_pairs(self):
+        before = pd.Series([35, 81, 69, 82, 84, 108, 75, 57, 102, 68, 76, 75], range(12))
+        after = pd.Series([32, 84, 66, 107, 76, 110, 99, 59, 112, 92, 76, 112], range(12))
+        found = difference(after, before)  # the published values are those of R's t.test
+        np.testing.assert_allclose([found.value, found.low, found.high], [-9.416667, -18.5659033, -0.2674301], atol=1e-6)
+        self.assertEqual(found.n, "12 pairs")
 
 
 if __name__ == "__main__":

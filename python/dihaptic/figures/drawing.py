@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 import warnings
@@ -11,6 +12,7 @@ from dataclasses import dataclass
 from multiprocessing import get_all_start_methods, get_context
 from pathlib import Path
 
+from .._parent import end_with
 from ..errors import Error
 from . import conditions, fitts, learning, lifts, paths, psychophysics, quality
 from .data import Data, read
@@ -89,14 +91,15 @@ def _save_all(made: list[Drawn], data: Data, folder: Path, jobs: int) -> Iterato
         yield from map(save_one, range(len(made)))
         return
     # forked children already have the data, so nothing is read again, or passed on
-    with ProcessPoolExecutor(jobs, get_context("fork"), _take, (save_one,)) as children:
+    with ProcessPoolExecutor(jobs, get_context("fork"), _take, (save_one, os.getpid())) as children:
         yield from children.map(_do, range(len(made)))
 
 
 _work: list[Callable[[int], str]] = []
 
 
-def _take(work: Callable[[int], str]) -> None:
+def _take(work: Callable[[int], str], parent: int) -> None:
+    end_with(parent)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent ends its children
     _work.append(work)
 
