@@ -29,7 +29,7 @@ from dihaptic.reports.models import notes_on_models
 from dihaptic.reports.page import Page, in_short
 from dihaptic.reports.results import results_of, shared_windows, warnings_of, with_spreads
 from dihaptic.reports.simulated import limits_of
-from dihaptic.reports.text import methods_of
+from dihaptic.reports.text import methods_of, perturbations_table
 
 #: Fewer reaches of fitts-law: its distances and widths once.
 FITTS = [("practice, repeats: 1", "practice, repeats: 1"), ("repeats: 8", "repeats: 2")]
@@ -302,6 +302,19 @@ class Reports(unittest.TestCase):
         self.assertTrue(text.startswith("Perturbation a (blocks practice and reaches): curl field of 13 N\u00a0s/m."), text)
         self.assertEqual(text.count("Perturbation "), 6)
         self.assertTrue(text.endswith("The table has 2 further ones."), text)
+
+    def test_a_density_is_a_mass_in_grams(self):
+        folder = self.here / "dense"
+        shutil.copytree(self.lift, folder)
+        body = "body: { body: block, density_scale: 4 }"
+        task = f"perturbations: [{{ name: heavy, {body} }}, {{ name: same, body: {{ body: block }} }}]\n"
+        (folder / "task.yaml").write_text(task)
+        told = {"perturbations": {"columns": ["perturbation", "in", "what"], "rows": [["heavy", "", "4 times the density"],
+                                  ["same", "", "turned by 30 deg"], ["heavy", "b", "none"]]}}  # fmt: skip
+        scene = (folder / "scene.yaml").read_text()
+        mass = 1000 * float(re.search(r"name: block.*?mass_kg: ([\d.]+)", scene, flags=re.S).group(1))
+        table = perturbations_table(figures.read(folder), told)
+        self.assertEqual(list(table["what"]), [f"4 times the density; block of {4 * mass:g} g", "turned by 30°", "none"])
 
     def test_each_factor_has_its_sentence(self):
         text = " ".join(results_of(figures.read(self.fitts)))

@@ -9,9 +9,11 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
 from ..errors import NotThere, error
-from .data import ASIDE, SITTING, Data, checked_list, sitting_columns
-from .means import intervals, means_with_intervals
+from .data import ASIDE, SITTING, Data, checked_list, sitting_columns, with_design
+from .means import intervals, means_with_intervals, said_of_limits, within_limits
 from .saving import Plan
 from .style import COLOURS, MARKERS, WIDTHS, canvas, drawing, fit_names, legend_above, of_data, same_limits, wrapped
 from .words import counted, label, level, words_of
@@ -36,16 +38,7 @@ def counting_trials(data: Data, table: str = "trials") -> pd.DataFrame:
     """
     trials = data.table("trials")
     if table != "trials":
-        other = data.table(table)
-        columns = [str(column) for column in trials]
-        # the description of a trial comes from trials.csv, even if the other table has a measure of the same name
-        design = columns[: columns.index("attempt" if "attempt" in columns else "trial_num") + 1]
-        design += [name for name in data.factors if name not in design]  # factors of a later session with another task
-        keys = [key for key in (*SITTING, "trial_num", "attempt") if key in design and key in other]
-        new = [column for column in other if column not in design]
-        attrs = {"units": {**other.attrs.get("units", {}), **trials.attrs.get("units", {})}}
-        trials = trials[design].merge(other[[*keys, *new]], on=keys, how="inner")
-        trials.attrs = attrs
+        trials = with_design(trials, data.table(table), data.factors)
     attrs = trials.attrs
     trials = trials.drop_duplicates([*sitting_columns(trials), "trial_num"], keep="last")
     trials = trials[~trials["kind"].isin(ASIDE)] if "kind" in trials else trials
@@ -117,7 +110,7 @@ def means_by_condition(
         if not pd.api.types.is_numeric_dtype(trials[measure]):
             raise error("contains words, which have no mean", "Name a column of numbers.", key=measure)
         each = each_in_conditions(trials, measure, by, single)
-        mean = means_with_intervals(each, by, dropna=False, sort=True)
+        mean = within_limits(means_with_intervals(each, by, dropna=False, sort=True), measure)
         both = pd.concat([each, mean], ignore_index=True)
         both.insert(0, "measure", measure)
         parts.append(both)
@@ -197,6 +190,7 @@ def _grid(measures: int, panels: int, size: str) -> tuple[int, int]:
     if panels > 1:
         return measures, panels
     columns = min(measures, 3 if size == "two columns" else 1)
+    columns = 2 if measures == 4 and columns == 3 else columns  # rows that are filled evenly
     return -(-measures // columns), columns
 
 
@@ -234,6 +228,8 @@ def _label(axes: Axes, places: dict[Any, float], xlabel: str, ylabel: str, width
     words = any(isinstance(value, str) for value in places)
     if words or len(places) <= 6:
         axes.set_xticks(list(places.values()), [level(value) for value in places])
+    elif xlabel.endswith("[°]"):
+        axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 1.5, 3, 4.5, 9, 10]))  # parts of a turn
     if words:
         fit_names(axes, width_mm)
     axes.set_xlabel(wrapped(xlabel, 34))
@@ -276,7 +272,7 @@ def axes_of_design(data: Data) -> dict[str, str]:
     if "condition" not in trials:
         return {}
     trials = trials[~trials["kind"].isin(ASIDE)] if "kind" in trials else trials
-    factors = [name for name in data.factors if trials[name].nunique() > 1]
+    factors = _separable(trials, [name for name in data.factors if trials[name].nunique() > 1])
     if not factors:
         return _axes_of_names(trials)
     levels = {name: int(trials[name].nunique()) for name in [*factors, "group"]}
@@ -291,6 +287,16 @@ def axes_of_design(data: Data) -> dict[str, str]:
         out["colour"] = rest[0]
     if len(rest) > 1 and levels[rest[1]] <= 4:
         out["panel"] = rest[1]
+    return out
+
+
+def _separable(trials: pd.DataFrame, factors: list[str]) -> list[str]:
+    """The factors without those whose levels go one by one with the levels of one before, such as rounds that differ in a lag."""
+    out: list[str] = []
+    for name in factors:
+        cases = [trials[[other, name]].dropna().drop_duplicates() for other in out]
+        if not any(len(own) == own.iloc[:, 0].nunique() == own.iloc[:, 1].nunique() == trials[name].nunique() for own in cases):
+            out.append(name)
     return out
 
 
@@ -317,7 +323,8 @@ def _plans_of(data: Data, table: str, measures: list[str], name: str, design: di
     by_columns = list(design.values())
     units = data.table("trials").attrs.get("units", {})
     panels = trials[design["panel"]].nunique() if "panel" in design else 1
-    each = max(1, _MOST_PANELS // panels) if panels > 1 else 6
+    most = max(1, _MOST_PANELS // panels) if panels > 1 else 6
+    each = -(-len(measures) // -(-len(measures) // most))  # about as many in each figure
     for first in range(0, len(measures), each):
         some = measures[first : first + each]
         by = " and ".join(words_of(column, units.get(column, "")) for column in design.values())
@@ -339,7 +346,8 @@ def _plans_of(data: Data, table: str, measures: list[str], name: str, design: di
             title=f"{'Lifts' if table == 'lifts' else 'Measures'} by {by}{', continued' if first else ''}",
             caption=f"{dots}; marks are means over {over}{intervals(values)}. {counted(people, 'person', 'people')}, "
             f"{counted(len(trials), 'trial')}; practice, catch trials and repeated attempts are left out{channels}."
-            + (f" Averaged over {' and '.join(rest)}." if rest else ""),
+            + (f" Averaged over {' and '.join(rest)}." if rest else "")
+            + said_of_limits({name: words_of(name, units.get(name, "")) for name in some}),
             points=means_by_condition,
             points_options={"measures": some, **design, "table": table},
             drawing=draw_conditions,

@@ -27,7 +27,9 @@ _END_OF_DESIGN = "attempt"
 _AFTER_MEASURES = ["not_measured", "simulated", "moved_by", "start_type", "replays"]
 #: Maximum number of trials in a window of a learning curve, such as early or late, in fits.csv.
 WINDOW = 8
-#: Columns of measures that describe forces on the hand, not the hand's behaviour.
+#: Columns of adaptation.csv and fits.csv in the unit of a row, apart from windows, which have columns with _low and _high.
+_IN_UNIT = ["perturbation", "compensation", "two_rate", "single_rate", "two_rate_sd", "single_rate_sd"]
+#: Columns of measures that describe what acted on the hand, not what the hand did.
 _NOT_BEHAVIOUR = ["field_share"]
 #: Values that differ by less than this share of their range count as equal.
 _SAME = 0.01
@@ -143,18 +145,12 @@ class Data:
             file = session.folder / "task.yaml"
             content = b"" if why_unreadable(file, MOST_YAML) else file.read_bytes()
             files.setdefault(content, file)
-        return [self._task_in(file) for file in files.values()]
+        return [_frozen(file) for file in files.values()]
 
-    def _task_in(self, file: Path) -> dict[str, Any]:
-        if not file.exists():
-            return {}
-        if fault := why_unreadable(file, MOST_YAML):
-            raise error(f"cannot be read: {fault}", "Restore the file from a copy of the session.", file=str(file))
-        try:
-            task = yaml.load(file.read_text(encoding="utf-8"), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-        except (OSError, UnicodeDecodeError, yaml.YAMLError, RecursionError) as why:
-            raise error(f"cannot be read: {why}", "Restore the file from a copy of the session.", file=str(file)) from None
-        return task if isinstance(task, dict) else {}
+    @cached_property
+    def scene(self) -> dict[str, Any]:
+        """The scene of the first session, frozen (scene.yaml); empty where there is none. Raises Error."""
+        return _frozen(self.sessions[0].folder / "scene.yaml")
 
     # Tables
 
@@ -177,7 +173,11 @@ class Data:
     def _read(self, name: str) -> pd.DataFrame:
         if name not in self.tables:
             raise NotThere(name, "is not a table of these sessions", self.tables, "Data.tables lists them.")
-        return _joined([each.table(name) for each in self.sittings if name in each.session.tables])
+        parts = [each.table(name) for each in self.sittings if name in each.session.tables]
+        if name in ("adaptation", "fits"):
+            indices = [_is_by_index(each) for each in self.sittings if name in each.session.tables]
+            parts = [_with_shares(part) if of_index else part for part, of_index in zip(parts, indices)]
+        return _joined(parts)
 
     @property
     def people(self) -> list[str]:
@@ -315,6 +315,36 @@ class Data:
         return "simulated" if self.is_simulated else ""
 
 
+def _is_by_index(sitting: Sitting) -> bool:
+    """Whether what was learned in a session is an adaptation index."""
+    fits = sitting.table("fits") if "fits" in sitting.session.tables else pd.DataFrame()
+    return "measure" in fits and bool((fits["measure"] == "adaptation_index").any())
+
+
+def _with_shares(table: pd.DataFrame) -> pd.DataFrame:
+    """A table of learning whose percentages are shares, as the adaptation index is in trials.csv, and in most papers."""
+    is_percent = table["unit"] == "%"
+    windows = [column.removesuffix("_low") for column in table if column.endswith("_low")]
+    names = [*(name for name in _IN_UNIT if name in table), *windows, *(f"{name}{end}" for name in windows for end in ("_low", "_high"))]
+    table[names] = table[names].astype(float)
+    table.loc[is_percent, names] /= 100
+    table.loc[is_percent, "unit"] = "1"
+    return table
+
+
+def _frozen(file: Path) -> dict[str, Any]:
+    """The content of a file that a session keeps as it was; empty where there is none. Raises Error."""
+    if not file.exists():
+        return {}
+    if fault := why_unreadable(file, MOST_YAML):
+        raise error(f"cannot be read: {fault}", "Restore the file from a copy of the session.", file=str(file))
+    try:
+        found = yaml.load(file.read_text(encoding="utf-8"), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, RecursionError) as why:
+        raise error(f"cannot be read: {why}", "Restore the file from a copy of the session.", file=str(file)) from None
+    return found if isinstance(found, dict) else {}
+
+
 def _is_made_of(expression: str, names: set[str]) -> bool:
     """Whether an expression of a task contains some of these names and, apart from them, only names of functions and units."""
     expression = re.sub(r"\d\s*[A-Za-z]+(/[A-Za-z]+)?", "0", expression)
@@ -330,6 +360,20 @@ def checked_list(name: str, values: list[str]) -> list[str]:
     if isinstance(values, str):
         raise error("must be a list of names", f'Write {name}=["{values}"].', key=name)
     return values
+
+
+def with_design(trials: pd.DataFrame, other: pd.DataFrame, factors: list[str]) -> pd.DataFrame:
+    """The rows of another table of attempts, such as lifts, with the columns of their trials, in the order of trials.
+
+    Of columns that both have, those that describe the design, including `factors`, are the trial's, and the others the row's.
+    """
+    columns = [str(column) for column in trials]
+    design = {*columns[: columns.index("attempt" if "attempt" in columns else "trial_num") + 1], *factors}
+    keys = [key for key in (*SITTING, "trial_num", "attempt") if key in trials and key in other]
+    of_trials = trials[[name for name in columns if name in design or name not in other]]
+    out = of_trials.merge(other[[*keys, *(name for name in other if name not in of_trials)]], on=keys, how="inner")
+    out.attrs = {"units": {**other.attrs.get("units", {}), **trials.attrs.get("units", {})}}
+    return out
 
 
 def sitting_columns(table: pd.DataFrame) -> list[str]:

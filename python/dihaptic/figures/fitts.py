@@ -84,6 +84,9 @@ def draw_fitts_law(points: pd.DataFrame, *, size: str = "one column", height_mm:
         axes.errorbar(mean["difficulty_bits"], mean["value"], np.array([low, high]), label=level(group), **style)
         axes.plot(line["difficulty_bits"], line["value"], color=hue, linewidth=1)
     axes.set_ylim(bottom=0)
+    if len(groups) == 1 and not points[points["of"] == "line"].empty:
+        law = _law(points[points["of"] == "line"].iloc[0])
+        axes.text(0.98, 0.04, law, transform=axes.transAxes, ha="right", va="bottom")  # no time is near zero
     axes.set_xlabel("index of difficulty [bit]")
     axes.set_ylabel("movement time [s]")
     if len(groups) > 1:
@@ -91,14 +94,18 @@ def draw_fitts_law(points: pd.DataFrame, *, size: str = "one column", height_mm:
     return figure
 
 
+def _law(line: Any) -> str:
+    """A regression line: "0.520 s + 0.094 s/bit × ID (R² = 0.91)"."""
+    sign = "\N{MINUS SIGN}" if line.slope_s_bit < 0 else "+"
+    return f"{line.intercept_s:.3f} s {sign} {abs(line.slope_s_bit):.3f} s/bit × ID (R² = {line.r2:.2f})"
+
+
 def law_in_words(points: pd.DataFrame) -> str:
     """The regression of fitts_law(), and the throughput, of each group: "0.52 s + 0.094 s/bit × ID (R² = 0.91)"."""
     lines = points[points["of"] == "line"].drop_duplicates("group")
     texts = []
     for line in lines.itertuples():
-        sign = "-" if line.slope_s_bit < 0 else "+"
-        text = f"{line.intercept_s:.3f} s {sign} {abs(line.slope_s_bit):.3f} s/bit × ID (R² = {line.r2:.2f})"
-        text += f", throughput {line.throughput_bits_s:.2f} bit/s"
+        text = f"{_law(line)}, throughput {line.throughput_bits_s:.2f} bit/s"
         texts.append(text + (f" ({level(line.group)})" if len(lines) > 1 else ""))
     return "; ".join(texts)
 

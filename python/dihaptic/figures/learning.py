@@ -16,10 +16,23 @@ from matplotlib.ticker import MaxNLocator
 
 from ..errors import NotThere, error
 from .data import Data, checked_list, sitting_columns
-from .means import BY_T, intervals, means_with_intervals
+from .means import BY_T, intervals, means_with_intervals, said_of_limits, within_limits
 from .saving import Plan
-from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, fit_names, legend_above, of_data, same_limits, wrapped
-from .words import counted, in_print, label, level, words_of
+from .style import (
+    COLOURS,
+    MARKERS,
+    QUIET,
+    WIDTHS,
+    canvas,
+    drawing,
+    fit_names,
+    legend_above,
+    letter_mm,
+    of_data,
+    same_limits,
+    wrapped,
+)
+from .words import counted, label, level, words_of
 
 #: Heading above these figures in a report.
 HEADING = "Learning"
@@ -28,7 +41,7 @@ _MOST_PANELS, _MOST_GROUPS, _LEAST_TRIALS = 6, 7, 8
 #: Maximum number of rows of blocks' names.
 _MOST_ROWS = 3
 #: Maximum number of points of a line, in a single panel and in each of several.
-_MOST_POINTS, _MOST_POINTS_OF_SEVERAL = 300, 160
+_MOST_POINTS, _MOST_POINTS_OF_SEVERAL = 200, 80
 _WIDTHS_OF_BINS = [1, 2, 4, 5, 8, 10, 16, 20, 25, 32, 40, 50, 64, 80, 100]
 #: Kinds of trials that mark a block, with the colour behind it and its name in the legend.
 SHADES = {
@@ -204,8 +217,7 @@ def _place_names(runs: list[tuple[str, str, float, float]], width_mm: float) -> 
     for name, _, first, last in runs:
         if not name:
             continue
-        # a letter of 7 points is about 1.5 mm wide
-        wide = 1.5 * len(name) + 1.5
+        wide = letter_mm() * len(name) + 1.5
         middle = ((first + last) / 2 - low) / (high - low) * width_mm
         middle = min(max(middle, wide / 2), max(width_mm - wide / 2, wide / 2))
         row = next((i for i, end in enumerate(ends) if middle - wide / 2 >= end), len(ends))
@@ -426,9 +438,9 @@ def learning_curve(data: Data, *, unit: str = "", rounds: list[str] | None = Non
     """Compensation over the trials of each round: that of each person, the mean over people, the fitted two-rate model, and
     the perturbation.
 
-    `unit` is that of adaptation.csv, "deg" or "%", and `rounds` names the rounds that are wanted, by default all; in a
-    study, rounds are named "SESSION, ROUND". Trials are counted from the first of the round. With `bin_trials`, each
-    point stands for that many trials of a block, from trial `first` to trial `last`.
+    `unit` is that of adaptation.csv, "deg" or "%"; but an adaptation index is a share here, whose unit is "1". `rounds` names
+    those that are wanted, by default all; in a study, rounds are named "SESSION, ROUND". Trials are counted from the first of
+    the round. With `bin_trials`, that many trials of a block are a point, from trial `first` to trial `last`.
 
     A row is `of` a "person" (`value` is the mean over n trials), the "mean" over n people with its 95 % interval from
     `low` to `high` (Student's t), the "fit" (the mean of people's fitted models), or the "schedule" (a trial's block
@@ -657,7 +669,7 @@ def measures_over_trials(data: Data, *, measures: list[str], session: str = "", 
     found = []
     for measure in measures:
         unit = data.measure(measure).unit
-        own = _courses(table.assign(value=table[measure]), bin_trials, several)
+        own = within_limits(_courses(table.assign(value=table[measure]), bin_trials, several), measure)
         own.insert(0, "measure", measure)
         found.append(own.assign(unit=unit))
     return pd.concat(found, ignore_index=True)
@@ -706,7 +718,7 @@ def _quantity(data: Data, unit: str) -> str:
     names = set(fits[fits["unit"] == unit]["measure"].dropna())
     words = {"adaptation_index": "adaptation index", "extent": "compensation of extent"}
     word = words.get(str(next(iter(names))), "compensation") if len(names) == 1 else "compensation"
-    return f"{word} [{in_print(unit)}]"
+    return label(word, unit)
 
 
 def _left_out(table: pd.DataFrame, panels: int) -> str:
@@ -876,7 +888,8 @@ def _plan_of_measures(data: Data, session: str, suffix: str) -> Plan | None:
         title="Measures over trials" + (f" ({session})" if suffix else ""),
         caption=f"{_lines_in_words(table, width)}.{_left_out(table, len(some))}{_too_many(data)} "
         f"{counted(people, 'person', 'people')}, "
-        f"{counted(int(values.sum()), 'trial')}; practice and all but the last attempt at a trial are left out.{omitted}",
+        f"{counted(int(values.sum()), 'trial')}; practice and all but the last attempt at a trial are left out.{omitted}"
+        + said_of_limits({measure.column: words_of(measure.column, measure.unit) for measure in some}),
         points=measures_over_trials,
         points_options={
             "measures": [measure.column for measure in some],

@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 
 from ..errors import NotThere, error
 from ..session import Session
-from .data import ASIDE, Data, sitting_columns
+from .data import ASIDE, Data, sitting_columns, with_design
 from .saving import Plan
 from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, legend_above, of_data, wrapped
 from .words import counted, label, level
@@ -46,16 +46,9 @@ _OF_COLOURS = {"blue": 0, "red": 1, "green": 2, "pink": 3, "orange": 4, "yellow"
 
 
 def _joined(data: Data, trials: pd.DataFrame, lifts: pd.DataFrame) -> pd.DataFrame:
-    """Each lift with the columns of its trial, numbered for each person; only the last of repeated attempts is included.
-
-    If both tables have a column, it comes from the trial for factors, and from the lift for measures.
-    """
-    lifts = lifts.drop(columns=[name for name in data.factors if name in lifts and name in trials])
-    keys = [key for key in ("person", "group", "session", "trial_num", "attempt") if key in trials and key in lifts]
-    design = trials.drop(columns=[column for column in lifts if column in trials and column not in keys])
-    frame = design.merge(lifts, on=keys, how="inner")
-    if "attempt" in trials:
-        frame = frame.drop_duplicates([key for key in keys if key != "attempt"], keep="last")
+    """Each lift with the columns of its trial, numbered for each person; of repeated attempts, the last."""
+    frame = with_design(trials, lifts, data.factors)
+    frame = frame.drop_duplicates([*sitting_columns(frame), "trial_num"], keep="last")
     for column in ("kind", "block", "condition", "perturbation"):
         if column not in frame:
             frame[column] = ""

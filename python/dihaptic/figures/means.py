@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,9 @@ import pandas as pd
 from scipy import special
 
 
-#: The method by which intervals were computed, for captions.
+#: Measures that cannot lie beyond these limits.
+_LIMITS = {"adaptation_index_r2": (0.0, 1.0), "grip_load_r": (-1.0, 1.0), "safety_margin": (-math.inf, 1.0)}
+#: How intervals were computed, in captions.
 BY_T = " (Student's t)"
 
 
@@ -23,6 +26,22 @@ def intervals(counts: pd.Series, how: str = "") -> str:
     if not several.any():
         return " (of one value each, so there is no interval)"
     return f" with 95 % intervals{how}{'' if several.all() else ' where they are over several'}"
+
+
+def within_limits(points: pd.DataFrame, measure: str) -> pd.DataFrame:
+    """The points, with intervals that end where their measure does: Student's t knows nothing of limits.
+
+    >>> within_limits(pd.DataFrame({"value": [0.9], "low": [0.7], "high": [1.1]}), "adaptation_index_r2").values.tolist()
+    [[0.9, 0.7, 1.0]]
+    """
+    low, high = _LIMITS.get(measure, (-math.inf, math.inf))
+    return points.assign(low=points["low"].clip(lower=low), high=points["high"].clip(upper=high))
+
+
+def said_of_limits(measures: dict[str, str]) -> str:
+    """A sentence for a caption on those measures, with their names in words, whose intervals may end at a limit."""
+    names = [words for measure, words in measures.items() if measure in _LIMITS]
+    return f" Intervals of {' and '.join(names)} end where the measure does." if names else ""
 
 
 def means_with_intervals(each: pd.DataFrame, by: list[str], **options: Any) -> pd.DataFrame:

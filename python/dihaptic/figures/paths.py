@@ -820,16 +820,29 @@ def plans(data: Data) -> Iterator[Plan]:
     if not data.recorded or not (data.task.get("reach") or data.task.get("movement")):
         return
     for sheet in _sheets(data):
-        yield _plan_of_paths(data, sheet)
-        if any(len(reach.speed) for own in sheet.panels.values() for reach in own):
-            yield _plan_of_speed(data, sheet)
+        reaches = [reach for own in sheet.panels.values() for reach in own]
+        yield _plan_of_paths(data, sheet, reaches)
+        if any(len(reach.speed) for reach in reaches):
+            yield _plan_of_speed(data, sheet, reaches)
     stages = _channel_stages(data)
     if stages:
         yield _plan_of_channels(data, stages)
 
 
-def _plan_of_paths(data: Data, sheet: _Sheet) -> Plan:
-    reaches = [reach for own in sheet.panels.values() for reach in own]
+def _plan_of_sheet(sheet: _Sheet, name: str, title: str, caption: str, points: Any, drawing: Any, options: dict[str, Any]) -> Plan:
+    """A figure of the reaches of a sheet."""
+    return Plan(
+        name="-".join(word for word in (name, sheet.name) if word),
+        title=title + (f": {sheet.title}" if sheet.title else ""),
+        caption=caption,
+        points=points,
+        points_options={"part": sheet.name} if sheet.name else {},
+        drawing=drawing,
+        drawing_options={**options, "size": "two columns" if len(sheet.panels) > 1 else "one column"},
+    )
+
+
+def _plan_of_paths(data: Data, sheet: _Sheet, reaches: list[_Reach]) -> Plan:
     colours = _colours_of(data, reaches)
     by_target = len({reach.condition for reach in reaches}) > _MOST_COLOURS
     right, up = _plane(reaches)
@@ -839,21 +852,12 @@ def _plan_of_paths(data: Data, sheet: _Sheet) -> Plan:
     if by_target and len(colours) > 1:
         caption += " Colours tell neighbouring targets apart."
     caption += _cut(sheet)
-    return Plan(
-        name="-".join(word for word in ("reach-paths", sheet.name) if word),
-        title="Paths of reaches" + (f": {sheet.title}" if sheet.title else ""),
-        caption=f"{caption} {_counts(reaches)}",
-        points=reach_paths,
-        points_options={"part": sheet.name} if sheet.name else {},
-        drawing=draw_reach_paths,
-        drawing_options={
-            "across": _direction(right),
-            "up": _direction(up),
-            **({"legend": False} if by_target else {}),
-            "bar_mm": 50 if widest > 150 else 20,
-            "size": "two columns" if len(sheet.panels) > 1 else "one column",
-        },
-    )  # fmt: skip
+    options = {
+        "across": _direction(right), "up": _direction(up), **({"legend": False} if by_target else {}),
+        "bar_mm": 50 if widest > 150 else 20,
+    }  # fmt: skip
+    caption = f"{caption} {_counts(reaches)}"
+    return _plan_of_sheet(sheet, "reach-paths", "Paths of reaches", caption, reach_paths, draw_reach_paths, options)
 
 
 def _cut(sheet: _Sheet) -> str:
@@ -871,8 +875,7 @@ def _counts(reaches: list[_Reach]) -> str:
     )
 
 
-def _plan_of_speed(data: Data, sheet: _Sheet) -> Plan:
-    reaches = [reach for own in sheet.panels.values() for reach in own]
+def _plan_of_speed(data: Data, sheet: _Sheet, reaches: list[_Reach]) -> Plan:
     without = sum(not len(reach.speed) for reach in reaches)
     colours = _colours_of(data, [reach for reach in reaches if len(reach.speed)], of_speed=True)
     by_distance = len({reach.condition for reach in reaches}) > _MOST_COLOURS
@@ -881,18 +884,9 @@ def _plan_of_speed(data: Data, sheet: _Sheet) -> Plan:
     caption += ", while at least three quarters of them last."
     if without:
         caption += f" {counted(without, 'reach', 'reaches')} without an onset {'is' if without == 1 else 'are'} left out."
-    return Plan(
-        name="-".join(word for word in ("reach-speed", sheet.name) if word),
-        title="Speed of reaches" + (f": {sheet.title}" if sheet.title else ""),
-        caption=f"{caption} {_counts(reaches)}",
-        points=speed_profiles,
-        points_options={"part": sheet.name} if sheet.name else {},
-        drawing=draw_speed_profiles,
-        drawing_options={
-            "size": "two columns" if len(sheet.panels) > 1 else "one column",
-            **({"legend": "distance of the target"} if by_distance and len(colours) > 1 else {}),
-        },
-    )
+    options = {"legend": "distance of the target"} if by_distance and len(colours) > 1 else {}
+    caption = f"{caption} {_counts(reaches)}"
+    return _plan_of_sheet(sheet, "reach-speed", "Speed of reaches", caption, speed_profiles, draw_speed_profiles, options)
 
 
 def _plan_of_channels(data: Data, stages: dict[str, list[_Reach]]) -> Plan:

@@ -1017,24 +1017,33 @@ def _outside(data: Data, procedures: list[_Procedure]) -> str:
     return f" {counted(outside, 'threshold lies', 'thresholds lie')} outside the levels shown, and {verb} left out."
 
 
-def _options(data: Data, panels: int) -> dict[str, Any]:
+def _options(panels: int) -> dict[str, Any]:
     return {"size": "two columns" if panels > 1 else "one column"}
+
+
+def _plan_of(data: Data, name: str, title: str, what: str, some: list[_Procedure], points: Any, drawing: Any) -> Plan:
+    """A figure with a panel for each of some procedures; `what` says what it shows."""
+    return Plan(
+        name=name,
+        title=title,
+        caption=f"{what} {_count(data, some)}.{_outside(data, some)}",
+        points=points,
+        points_options={"procedures": [each.title for each in some]},
+        drawing=drawing,
+        drawing_options=_options(len(some)),
+    )
 
 
 def _plans_of_functions(data: Data, procedures: list[_Procedure]) -> Iterator[Plan]:
     single = _is_single(data)
     drawn = procedures if single else [each for each in procedures if len(_fits(data, each))]
     for name, some in _parted("psychometric-functions", drawn):
-        what = _what_of_one if single else _what_of_several
-        yield Plan(
-            name=name,
-            title="Psychometric functions",
-            caption=f"{what(data, some)} {_count(data, some)}.{_outside(data, some)}",
-            points=psychometric_functions,
-            points_options={"procedures": [each.title for each in some]},
-            drawing=draw_psychometric_functions,
-            drawing_options=_options(data, len(some)),
-        )
+        what = (_what_of_one if single else _what_of_several)(data, some)
+        if len({each.yes for each in some}) > 1:
+            what += ' Yes is ' + ', '.join(f'"{each.yes}"' for each in some) + ', in the order of panels.'
+        yield _plan_of(
+            data, name, "Psychometric functions", what, some, psychometric_functions, draw_psychometric_functions
+        )  # fmt: skip
 
 
 def _what_of_several(data: Data, procedures: list[_Procedure]) -> str:
@@ -1099,7 +1108,7 @@ def _plans_of_thresholds(data: Data, procedures: list[_Procedure]) -> Iterator[P
                 points=thresholds_by_procedure,
                 points_options={"measure": measure, "procedures": [each.title for each in some]},
                 drawing=draw_thresholds,
-                drawing_options=_options(data, max(quantities, 2 if len(some) > 3 else 1)),
+                drawing_options=_options(max(quantities, 2 if len(some) > 3 else 1)),
             )
 
 
@@ -1115,15 +1124,7 @@ def _plans_of_courses(data: Data, procedures: list[_Procedure]) -> Iterator[Plan
         else:
             what = "Levels in the order of answers, of each person (thin), and their mean as long as all people answer (thick)."
             what += " Dashed: mean of the thresholds of the fitted functions." * fits
-        yield Plan(
-            name=name,
-            title="Courses of the procedures",
-            caption=f"{what} {_count(data, some)}.{_outside(data, some)}",
-            points=procedure_courses,
-            points_options={"procedures": [each.title for each in some]},
-            drawing=draw_procedure_courses,
-            drawing_options=_options(data, len(some)),
-        )
+        yield _plan_of(data, name, "Courses of the procedures", what, some, procedure_courses, draw_procedure_courses)
 
 
 def _meaning(procedures: list[_Procedure]) -> str:
@@ -1160,7 +1161,7 @@ def plan_of_answers(data: Data) -> Iterator[Plan]:
         points=answers_by_level,
         points_options={**options, **({"series": series} if series else {}), **({"side": side} if side else {})},
         drawing=draw_answers,
-        drawing_options={"xlabel": label(x, unit), "ylabel": what, **_options(data, 1)},
+        drawing_options={"xlabel": label(x, unit), "ylabel": what, **_options(1)},
     )
 
 

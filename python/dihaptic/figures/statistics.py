@@ -18,6 +18,7 @@ import pandas as pd
 
 from .data import ASIDE, WINDOW, Data
 from .saving import is_changed, signed, write
+from .words import label
 
 #: Figures of lifts.csv that are analysed, unless the task measures the same.
 _OF_LIFTS = ["peak_grip_rate_N_s", "static_grip_N", "safety_margin"]
@@ -233,7 +234,7 @@ def _is_of_full_rank(
 
 
 def _about(data: Data, design: _Design) -> list[str]:
-    what = f"late compensation [{design.unit}]" if design.late else "measures over attempts"
+    what = label("late compensation", design.unit) if design.late else "measures over attempts"
     return [
         f"Mixed models of {' '.join(data.title.split()) or 'an experiment'}: {what}, by the factors of the design.",
         "Each person has an intercept. Intervals are Wald's, and with few people too narrow.",
@@ -322,7 +323,7 @@ MODELS = {{
 
 
 def read(name):
-    texts = {{column: str for column in ["person", *WORDS]}}
+    texts = {{column: str for column in ["person", "unit", *WORDS]}}
     return pd.read_csv(Path(__file__).resolve().parent / name, dtype=texts, keep_default_na=False, na_values=[""])
 
 
@@ -403,7 +404,7 @@ models <- list(
 
 read <- function(name) {{
   columns <- names(read.csv(name, nrows = 1, check.names = FALSE))
-  texts <- intersect(c("person", names(words)), columns)
+  texts <- intersect(c("person", "unit", names(words)), columns)
   read.csv(name, na.strings = "", check.names = FALSE, colClasses = sapply(texts, function(name) "character"))
 }}
 

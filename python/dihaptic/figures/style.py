@@ -12,6 +12,8 @@ from matplotlib import font_manager
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import TextPath
 
 from ..charts import COLOURS as COLOURS  # the same colours
 from ..errors import NotThere
@@ -81,13 +83,18 @@ def styled(function: _Function) -> _Function:
 
 
 def of_data(function: _Function) -> _Function:
-    """Makes a function of Data note in its table of points, for drawing(), whether the data are simulated."""
+    """Notes in the table of points that a function makes of Data whether they are simulated, for drawing(). The same points are
+    made once: captions and sentences need them, too."""
 
     @wraps(function)
     def call(data: Any, *arguments: Any, **options: Any) -> Any:
-        points = function(data, *arguments, **options)
-        points.attrs["mark"] = data.mark
-        return points
+        made = data.__dict__.setdefault("_points", {})
+        key = (function.__name__, repr(arguments), repr(sorted(options.items())))
+        if key not in made:
+            points = function(data, *arguments, **options)
+            points.attrs["mark"] = data.mark
+            made[key] = points
+        return made[key].copy()
 
     return call  # type: ignore[return-value]
 
@@ -140,6 +147,15 @@ def canvas(
     return figure, panels
 
 
+@cache
+@styled
+def letter_mm() -> float:
+    """The width of a letter of 7 points in most words, which depends on the typeface that is installed."""
+    text = "opposite field without measurement"
+    width = TextPath((0, 0), text, size=7, prop=FontProperties(size=7)).get_extents().width
+    return 1.06 * float(width) / len(text) / 72 * 25.4
+
+
 def wrapped(text: str, letters: int) -> str:
     """A label in lines of at most this many letters, as far as its words allow."""
     return "\n".join(textwrap.wrap(text, letters, break_long_words=False, break_on_hyphens=False))
@@ -148,8 +164,7 @@ def wrapped(text: str, letters: int) -> str:
 def fit_names(axes: Axes, width_mm: float) -> None:
     """Writes the names below a panel of this width in several lines, or upright if a word does not fit."""
     names = [text.get_text() for text in axes.get_xticklabels()]
-    # a letter of 7 points is about 1.4 mm wide; about 14 mm of a panel's width are to the left of it
-    letters = int((width_mm - 14) / max(1, len(names)) / 1.5)
+    letters = int((width_mm - 14) / max(1, len(names)) / letter_mm())  # about 14 mm of a panel's width are to the left of it
     if max(len(word) for name in names for word in name.split() or [""]) > letters:
         axes.tick_params(axis="x", labelrotation=90)
     else:

@@ -15,6 +15,9 @@ _WORDS = {
     "grip_load_r": "correlation of grip and load",
     "grip_load_lag": "lag of grip behind load",
     "static_ratio": "static ratio of grip and load",
+    "adaptation_index_r2": "adaptation index, R²",
+    "adaptation_index_slope": "adaptation index, slope",
+    "adaptation_index_offset": "adaptation index, offset",
     "tlx": "workload (TLX)",
 }
 

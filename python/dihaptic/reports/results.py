@@ -10,7 +10,7 @@ import pandas as pd
 from ..figures import fitts, psychophysics
 from ..figures.conditions import averaged_over, axes_of_design, counting_trials, each_in_conditions
 from ..figures.data import WINDOW, Data, sitting_columns
-from ..figures.means import means_with_intervals
+from ..figures.means import means_with_intervals, within_limits
 from ..figures.words import counted, label, level, with_unit, words_of
 from .differences import differences_in_words
 from .page import in_short
@@ -99,7 +99,7 @@ def means_of(data: Data, measure: str, by: list[str], table: str = "trials") -> 
     trials = counting_trials(data, table).assign(all="")
     keys = by or ["all"]
     each = each_in_conditions(trials, measure, keys, len(data.people) == 1)
-    means = means_with_intervals(each, keys, dropna=False).rename(columns={"value": "mean"})
+    means = within_limits(means_with_intervals(each, keys, dropna=False), measure).rename(columns={"value": "mean"})
     spread = each.groupby(keys, dropna=False).agg(sd=("value", "std"), trials=("n", "sum")).reset_index()
     return data.in_order(means.merge(spread, on=keys), by).reset_index(drop=True)
 
@@ -173,7 +173,7 @@ def _measured(data: Data) -> list[str]:
     main = [name for name in (axes.get("x"), axes.get("colour")) if name and name not in apart]
     # each factor has a sentence of its own: a mean over surfaces would hide their effect
     out = [_sentence(data, measure, [name, *apart], table) for table, measure in own for name in main]
-    out = out or [_sentence(data, measure, apart, table) for table, measure in own]
+    out = list(dict.fromkeys(out)) or [_sentence(data, measure, apart, table) for table, measure in own]
     if out and len(names) > _MOST_MEASURES:
         out[-1] += " The tables have the other measures."
     return out
@@ -196,7 +196,7 @@ def _sentence(data: Data, measure: str, by: list[str], table: str) -> str:
     texts = []
     shown = means.head(MOST_LISTED)
     for row, words in zip(shown.to_dict("records"), with_spreads(shown["mean"], shown["sd"])):
-        named = [name for name in by if name != "perturbation" or pd.notna(row[name])]
+        named = [name for name in by if pd.notna(row[name])]
         of = ", ".join(level(row[name], units.get(name, "")) for name in named)
         value = with_unit(words, unit)
         texts.append(f"{value} ({of})" if of else value)

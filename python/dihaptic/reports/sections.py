@@ -12,11 +12,11 @@ import pandas as pd
 from .._head import why_unreadable
 from ..errors import error
 from ..figures.conditions import axes_of_design, counting_trials, measures_of_lifts
-from ..figures.data import Data, sitting_columns
+from ..figures.data import Data, with_design
 from ..figures.drawing import Drawn, draw_data
 from ..figures.learning import learning_windows
 from ..figures.lifts import previous_weight
-from ..figures.means import intervals, means_with_intervals
+from ..figures.means import intervals, means_with_intervals, said_of_limits
 from ..figures.quality import missing_values
 from ..figures.words import counted, in_print, label, level, words_of
 from .differences import add_differences
@@ -24,7 +24,7 @@ from .models import models_table, notes_on_models
 from .page import Page, between, in_short, with_interval, without_empty
 from .results import means_of, results_of, warnings_of
 from .simulated import is_of_limits
-from .text import methods_of
+from .text import methods_of, perturbations_table
 from .trials import trials_to_look_at
 
 #: Figures of lifts.csv whose medians are on the page.
@@ -92,8 +92,7 @@ def _methods(page: Page, data: Data, told: dict[str, Any]) -> None:
     page.text("A start for a paper's methods; the sentences under Result are one for its results.", "caption")
     for text in methods_of(data, told):
         page.text(text)
-    perturbations = told.get("perturbations") or {"columns": [], "rows": []}
-    table = pd.DataFrame(perturbations["rows"], columns=perturbations["columns"])
+    table = perturbations_table(data, told)
     caption = "Perturbations; the column share of trials.csv states how much of each acts."
     if "in" in table and table["in"].nunique() > 1 and (table["in"] == "").any():
         caption += " A row with nothing under \"in\" holds wherever no other row of that perturbation replaces it."
@@ -219,6 +218,7 @@ def _means(page: Page, data: Data, measures: list[str], table: str) -> None:
     caption = (
         f"Means over {'trials' if len(data.people) == 1 else 'people'}{intervals(counts)}. Practice, catch trials and "
         "repeated attempts are left out; so are force channels, for measures that other trials have."
+        + said_of_limits({name: words_of(name, data.measure(name, table).unit) for name in measures})
     )
     page.table(means, caption, keys=keys)
 
@@ -260,11 +260,8 @@ def _lifts(page: Page, data: Data) -> None:
     lifts = data.table("lifts")
     if "lift" in lifts and not (lifts["lift"] == "complete").any():
         return  # another kind of task: objects that are pushed, or carried from the start
-    trials = data.table("trials")
-    keys = [key for key in (*sitting_columns(lifts), "trial_num", "attempt") if key in trials]
-    design = [name for name in ("study_session", "round", "block", "kind", "condition") if name in trials]
-    design = [name for name in design if name not in keys]
-    own = lifts.drop(columns=design, errors="ignore").merge(trials[[*keys, *design]], on=keys, how="left")
+    own = with_design(data.table("trials"), lifts, data.factors)
+    design = [name for name in ("study_session", "round", "block", "kind", "condition") if name in own]
     groups = ["group"] if own["group"].nunique() > 1 else []
     own = data.in_order(own, [name for name in (*groups, "block", "condition") if name in own])
     own["lifts"] = _joined(own, [*groups, *design]) if design else "all"
@@ -334,7 +331,7 @@ def _learning(page: Page, data: Data) -> None:
 def _corrections(page: Page, data: Data) -> None:
     if data.has("corrections"):
         table = data.table("corrections").drop(columns=["session", "simulated", "moved_by", "population"], errors="ignore")
-        page.table(without_empty(table), "Times at which the mean velocity departs from that of matched trials.")
+        page.table(without_empty(table), "Times at which the mean velocity departs from that of matched trials.", keys=2)
 
 
 def _thresholds(page: Page, data: Data) -> None:

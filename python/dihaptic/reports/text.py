@@ -112,9 +112,34 @@ def _set_values(data: Data) -> str:
     return f"{capital(listed(names))} {'was' if len(names) == 1 else 'were'} set by the experiment." if names else ""
 
 
+def perturbations_table(data: Data, told: dict[str, Any]) -> pd.DataFrame:
+    """The program's table of perturbations, in print, with the masses that factors make of those of the scene."""
+    found = told.get("perturbations") or {"columns": [], "rows": []}
+    masses = _masses(data)
+    rows = [[*map(str, row)] for row in found["rows"]]
+    for row in rows:
+        row[-1] = "; ".join([in_print(row[-1]).replace(" \N{DEGREE SIGN}", "\N{DEGREE SIGN}"), *masses.get((row[0], row[1]), [])])
+    return pd.DataFrame(rows, columns=found["columns"])
+
+
+def _masses(data: Data) -> dict[tuple[str, str], list[str]]:
+    """The masses of bodies whose density is changed, by perturbation and round or condition ("": neither)."""
+    bodies = {str(body.get("name")): body.get("mass_kg") for body in data.scene.get("bodies") or []}
+    out: dict[tuple[str, str], list[str]] = {}
+    parts = [data.task, *(data.task.get("rounds") or []), *(data.task.get("conditions") or [])]
+    for part in parts:
+        for each in part.get("perturbations") or []:
+            body = each.get("body") or {}
+            factor, mass = body.get("density_scale"), bodies.get(str(body.get("body")))
+            if isinstance(factor, (int, float)) and isinstance(mass, (int, float)) and factor != 1:
+                of = "" if part is data.task else str(part.get("name") or "")
+                out.setdefault((str(each.get("name")), of), []).append(f"{body['body']} of {level(1000 * mass * factor, 'g')}")
+    return out
+
+
 def _perturbations(data: Data, told: dict[str, Any]) -> str:
     """A sentence for each perturbation: its blocks, kind and size. Values that rounds or conditions replace are left out."""
-    rows = [[*map(str, row)] for row in (told.get("perturbations") or {}).get("rows") or []]
+    rows = perturbations_table(data, told).to_numpy().tolist()
     trials = _trials(data)
     within = {name: {row[1] for row in rows if row[0] == name} for name, *_ in rows}
     every = [set(parts) for parts in (data.rounds, data.conditions) if parts]
@@ -125,7 +150,7 @@ def _perturbations(data: Data, told: dict[str, Any]) -> str:
         blocks = _levels(trials[acts], "block") if any(acts) else []
         where = f"{'block' if len(blocks) == 1 else 'blocks'} {listed(blocks)}" if len(blocks) <= 3 and blocks else ""
         where = f" ({', '.join(filter(None, [part, where]))})" if part or where else ""
-        each.append(f"Perturbation {name}{where}: {in_print(what)}.")
+        each.append(f"Perturbation {name}{where}: {what}.")
     if len(rows) > _MOST_PERTURBATIONS:
         each.append(f"The table has {len(rows) - _MOST_PERTURBATIONS} further ones.")
     return " ".join(each)
