@@ -41,7 +41,7 @@ _MOST_PANELS, _MOST_GROUPS, _LEAST_TRIALS = 6, 7, 8
 #: Maximum number of rows of blocks' names.
 _MOST_ROWS = 3
 #: Maximum number of points of a line, in a single panel and in each of several.
-_MOST_POINTS, _MOST_POINTS_OF_SEVERAL = 200, 80
+_MOST_POINTS, _MOST_POINTS_OF_SEVERAL = 160, 80
 _WIDTHS_OF_BINS = [1, 2, 4, 5, 8, 10, 16, 20, 25, 32, 40, 50, 64, 80, 100]
 #: Kinds of trials that mark a block, with the colour behind it and its name in the legend.
 SHADES = {

@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Callable
 from functools import cache, wraps
+from pathlib import Path
 from typing import Any, TypeVar
 
 import matplotlib
@@ -119,7 +120,11 @@ def drawing(function: _Function) -> _Function:
 
 @cache
 def _families() -> list[str]:
-    """The typeface, followed by installed ones with letters of other scripts; each letter is drawn in the first that has it."""
+    """The typeface, and those installed that have the letters of other scripts: each letter is in the first that has it."""
+    # matplotlib keeps a list of fonts, and does not look for those that were installed later
+    if all(font.name != "Liberation Sans" for font in font_manager.fontManager.ttflist):
+        for file in sorted(Path("/usr/share/fonts/truetype").glob("liberation*/LiberationSans-*.ttf")):
+            font_manager.fontManager.addfont(file)
     installed = {font.name for font in font_manager.fontManager.ttflist}
     return ["sans-serif", *(name for name in _OTHER_FONTS if name in installed)]
 
