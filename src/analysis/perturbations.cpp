@@ -13,10 +13,21 @@
 namespace dihaptic::analysis {
 namespace {
 
+/// The course of a perturbation within a trial, in words.
+void say_course(const task::Profile& profile, std::vector<std::string>& out) {
+    const auto ms = [](double s) { return fmt::format("{:.6g} ms", 1000 * s); };
+    if (profile.delay > 0) out.push_back("after " + ms(profile.delay));
+    if (profile.rise > 0) out.push_back("rising in " + ms(profile.rise));
+    if (profile.plateau) out.push_back("full for " + ms(*profile.plateau));
+    if (profile.plateau && profile.fall > 0) out.push_back("falling in " + ms(profile.fall));
+}
+
 /// The kind of the perturbation and its size.
 std::string kind_and_size(const task::PerturbationSpec& perturbation) {
     std::vector<std::string> out;
     perturbation.each_effect([&](const auto& effect) { say(effect, out); });
+    if (out.empty()) return "no effect";
+    if (perturbation.profile) say_course(*perturbation.profile, out);
     return fmt::format("{}", fmt::join(out, "; "));
 }
 

@@ -13,7 +13,9 @@ std::string in_words(const FormulaVec3& v) {
 }
 
 void say_factor(const std::string& what, const Formula& factor, std::vector<std::string>& out) {
-    if (factor != 1) out.push_back(fmt::format("{} {} times", what, in_words(factor)));
+    if (factor == 1) return;
+    out.push_back(factor.computed() ? fmt::format("{} times ({})", what, in_words(factor))
+                                    : fmt::format("{} times the {}", in_words(factor), what));
 }
 
 }  // namespace dihaptic::task

@@ -327,6 +327,39 @@ TEST(Adaptation, WindowsAreOfOneBlockEach) {
     EXPECT_EQ(block_table({curve}).rows.size(), 5u);
 }
 
+TEST(Perturbations, AreDescribedSoThatTheyDiffer) {
+    testing::TemporaryFolder folder;
+    const auto described = [&](const std::string& effect) {
+        const task::Task task = read_frozen_task(
+            folder.write("task.yaml", "perturbations:\n  - { name: one, " + effect + " }\n"));
+        return std::get<std::string>(perturbation_table(task).rows.at(0)[2]);
+    };
+    const auto load = [&](const std::string& keys) {
+        return described("field: { on: index, " + keys + " }");
+    };
+    EXPECT_EQ(load("kind: curl, damping_Ns_m: 13, axis: [0, 0, -1]"),
+              "curl field of 13 N*s/m about (0, 0, -1), on index");
+    const std::string channel = "kind: channel, stiffness_N_m: 1000, ";
+    const std::string walls = "force channel of 1000 N/m to the ";
+    EXPECT_EQ(load(channel + "about: start, normal: [0, 0, 1]"),
+              walls + "plane across (0, 0, 1) through start, on index");
+    EXPECT_EQ(load(channel + "from: start, to: target, free: [0, 0, 1]"),
+              walls + "plane along (0, 0, 1) from start to target, on index");
+    EXPECT_EQ(load(channel + "from: start, to: target"),
+              walls + "line from start to target, on index");
+    EXPECT_EQ(load("kind: spring, stiffness_N_m: 50, about: start, axis: [1, 0, 0], delay_ms: 20"),
+              "spring of 50 N/m to the line along (1, 0, 0) through start, on index, 20 ms late");
+    EXPECT_EQ(load("kind: spring, stiffness_N_m: 50, about: start"),
+              "spring of 50 N/m to start, on index");
+    EXPECT_EQ(described("loads: [{ kind: constant, on: [a, b], force_N: [0, 0, -1] }], "
+                        "profile: { delay_ms: 50, rise_ms: 250, plateau_s: 1, fall_ms: 100 }"),
+              "constant force (0, 0, -1) N, on a and b; after 50 ms; rising in 250 ms; "
+              "full for 1000 ms; falling in 100 ms");
+    EXPECT_EQ(described("body: { body: block, density_scale: 2, friction_scale: mass / 2 }"),
+              "2 times the density; friction times (mass / 2)");
+    EXPECT_EQ(described("visual: { moves: [proxies], about: a }"), "no effect");
+}
+
 TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
     testing::TemporaryFolder folder;
     const task::Task task = read_frozen_task(folder.write(
@@ -377,9 +410,9 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
     ASSERT_EQ(all.rows.size(), 6u);
     const auto what = [&](size_t i) { return std::get<std::string>(all.rows[i][2]); };
     EXPECT_EQ(what(0), "rotation by 30 deg about (0, 0, 0)");
-    EXPECT_EQ(what(1), "curl field of 0 N*s/m");  // the file above gives no unit
-    EXPECT_EQ(what(2), "force channel of 0 N/m");
-    EXPECT_EQ(what(5), "inertia (3, 3, 1) times");
+    EXPECT_EQ(what(1), "curl field of 0 N*s/m, on finger");  // the file above gives no unit
+    EXPECT_EQ(what(2), "force channel of 0 N/m, on finger");
+    EXPECT_EQ(what(5), "inertia times (3, 3, 1)");
     EXPECT_TRUE(perturbation_table(none).rows.empty());
     EXPECT_EQ(curve.trials[14].kind, rows::TrialKind::force_channel);
     const rows::TrialFile earlier(folder.write("earlier.csv",

@@ -71,8 +71,7 @@ void BodyEffect::order(double share, std::span<const Vec3>, const Motions&,
 }
 
 void say(const BodySpec& spec, std::vector<std::string>& out) {
-    if (spec.mass_scale != kNoFactors)
-        out.push_back("inertia " + in_words(spec.mass_scale) + " times");
+    if (spec.mass_scale != kNoFactors) out.push_back("inertia times " + in_words(spec.mass_scale));
     say_factor("weight", spec.weight_scale, out);
     say_factor("density", spec.density_scale, out);
     say_factor("friction", spec.friction_scale, out);

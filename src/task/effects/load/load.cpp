@@ -1,6 +1,7 @@
 #include "task/effects/load/load.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -332,34 +333,70 @@ double Load::left_at(double distance) const noexcept {
     return std::clamp(1 - (distance - *spec_.zone) / spec_.fade, 0.0, 1.0);
 }
 
-void say(const LoadSpec& spec, std::vector<std::string>& out) {
+namespace {
+
+std::string vector_in_words(const Vec3& v) {
+    return in_words(as_formula(v));
+}
+
+/// Returns the rows of a matrix, such as "(1, 0, 0; 0, 1, 0; 0, 0, 1)".
+std::string matrix_in_words(const Mat3& m) {
+    std::vector<std::string> rows;
+    for (int i = 0; i < 3; ++i)
+        rows.push_back(fmt::format("{:.6g}, {:.6g}, {:.6g}", m(i, 0), m(i, 1), m(i, 2)));
+    return fmt::format("({})", fmt::join(rows, "; "));
+}
+
+/// Returns the point, line or plane to which a spring or channel pulls, in words.
+std::string place_of_load_in_words(const LoadSpec& spec) {
+    const std::string through = spec.about.empty() ? "" : " through " + spec.about;
+    if (spec.normal)
+        return fmt::format("the plane across {}{}", vector_in_words(*spec.normal), through);
+    const bool is_led = !spec.from.empty() && !spec.to.empty();
+    const std::string led =
+        is_led ? fmt::format(" from {} to {}", std::string(spec.from), std::string(spec.to)) : "";
+    if (spec.free)
+        return fmt::format("the plane along {}{}", vector_in_words(*spec.free), led + through);
+    if (spec.axis) return fmt::format("the line along {}{}", vector_in_words(*spec.axis), through);
+    if (is_led) return "the line" + led;
+    return spec.about;
+}
+
+std::string load_in_words(const LoadSpec& spec) {
+    const std::string place = place_of_load_in_words(spec);
+    const std::string to = place.empty() ? "" : " to " + place;
     switch (spec.kind) {
         case LoadKind::constant:
-            out.push_back(fmt::format("constant force {} N", in_words(spec.force)));
-            if (spec.torque != FormulaVec3{})
-                out.back() += fmt::format(", {} N*m", in_words(spec.torque));
-            break;
+            return fmt::format("constant force {} N", in_words(spec.force)) +
+                   (spec.torque == FormulaVec3{} ? ""
+                                                 : fmt::format(", {} N*m", in_words(spec.torque)));
         case LoadKind::viscous:
         case LoadKind::curl:
-            out.push_back(
-                fmt::format("{} field of {} N*s/m", enum_name(spec.kind), in_words(spec.damping)));
-            break;
+            return fmt::format("{} field of {} N*s/m", enum_name(spec.kind),
+                               in_words(spec.damping)) +
+                   (spec.axis ? " about " + vector_in_words(*spec.axis) : "");
         case LoadKind::general:
-            out.push_back("general field");
-            break;
+            return fmt::format("general field of {} N, {} N/m and {} N*s/m", in_words(spec.force),
+                               matrix_in_words(spec.A), matrix_in_words(spec.B));
         case LoadKind::spring:
-            out.push_back(fmt::format("spring of {} N/m", in_words(spec.stiffness)));
-            break;
+            return fmt::format("spring of {} N/m{}", in_words(spec.stiffness), to);
         case LoadKind::channel:
-            out.push_back(fmt::format("force channel{} of {} N/m",
-                                      spec.normal || spec.free ? " (a plane)" : "",
-                                      in_words(spec.stiffness)));
-            break;
+            return fmt::format("force channel of {} N/m{}", in_words(spec.stiffness), to);
         case LoadKind::link:
-            out.push_back(fmt::format("link of {} N/m between {} and {}", in_words(spec.stiffness),
-                                      spec.between.front(), spec.between.back()));
-            break;
+            return fmt::format("link of {} N/m between {} and {}", in_words(spec.stiffness),
+                               spec.between.front(), spec.between.back());
     }
+    return "";
+}
+
+}  // namespace
+
+void say(const LoadSpec& spec, std::vector<std::string>& out) {
+    std::string text = load_in_words(spec);
+    const std::vector<std::string> on(spec.on.begin(), spec.on.end());
+    if (!on.empty()) text += fmt::format(", on {}", fmt::join(on, " and "));
+    if (spec.delay != 0) text += fmt::format(", {} ms late", in_words(spec.delay, 1e-3));
+    out.push_back(text);
 }
 
 }  // namespace dihaptic::task
