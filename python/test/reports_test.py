@@ -191,6 +191,7 @@ class Reports(unittest.TestCase):
         text = self.read(write_page([self.here / "first", self.here / "third"], self.here / "of-two").read_text()).text
         self.assertIn("Differences between groups", text)
         page = (self.here / "of-two" / "report.html").read_text()
+        self.assertIn("<summary>Differences of the other measures</summary>", page)
         for distance in (40, 80, 160):
             row = re.search(rf"<tr><td>movement time \[s\]</td><td>{distance} mm</td>(.*?)</tr>", page).group(1)
             mean = each[distance][["sim-001", "sim-002"]].mean()

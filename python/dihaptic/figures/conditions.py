@@ -71,7 +71,7 @@ def each_in_conditions(trials: pd.DataFrame, measure: str, by: list[str], single
 def averaged_over(data: Data, trials: pd.DataFrame, by: list[str]) -> list[str]:
     """The factors whose levels differ among trials that have the same levels of the columns `by`."""
     same = trials.groupby(by, dropna=False) if by else trials.assign(all="").groupby("all")
-    return [name for name in data.factors if name not in by and same[name].nunique().max() > 1]
+    return _separable(trials, [name for name in data.factors if name not in by and same[name].nunique().max() > 1])
 
 
 def check_column(table: pd.DataFrame, name: str) -> None:

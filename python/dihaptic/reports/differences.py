@@ -20,6 +20,8 @@ from .page import Page, in_short, with_interval, without_empty
 _MOST_GROUPS, _MOST_CONDITIONS = 7, 6
 #: Number of differences in the sentences; the others are in the table.
 _MOST_IN_WORDS = 3
+#: Ends of the names of windows of learning that are in the table alone.
+_NOT_LATE = tuple(f", {called}" for window, called in {**WINDOWS, **DIFFERENCES}.items() if window != "late")
 
 
 @dataclass(frozen=True)
@@ -30,6 +32,7 @@ class _Case:
     unit: str
     condition: str
     each: pd.DataFrame
+    is_learned: bool = False  #: whether it is a window of learning or a threshold
 
 
 @dataclass(frozen=True)
@@ -83,10 +86,15 @@ def _error(values: pd.Series) -> float:
 def add_differences(page: Page, data: Data) -> None:
     """A section with the differences of everything that people of several groups, or sessions of a study, have been measured by."""
     side, sides = _sides(data)
-    rows = []
-    averaged: list[str] = []
-    for case in _cases(data, side, apart=True) if side else []:
+    rows: list[dict[str, Any]] = []
+    cases = list(_cases(data, side, apart=True)) if side else []
+    # what was learned, or the first measures; the others are for those who look for them
+    learned = any(case.is_learned for case in cases)
+    names = list(dict.fromkeys(case.what for case in cases))[:_MOST_IN_WORDS]
+    first = 0
+    for case in cases:
         for other, found in _compared(case, sides):
+            first += case.is_learned if learned else case.what in names
             rows.append({
                 "measure": label(case.what, case.unit), "condition": case.condition,
                 words_of(side): other if len(sides) > 2 else "", sides[0]: in_short(found.mean),
@@ -95,6 +103,7 @@ def add_differences(page: Page, data: Data) -> None:
             })  # fmt: skip
     if not rows:
         return
+    table = pd.DataFrame(rows)
     averaged = _averaged(data, side)
     page.heading("Differences between sessions" if side == "study_session" else "Differences between groups")
     what = f"{sides[1]} less {sides[0]}" if len(sides) == 2 else f"each {words_of(side)} less {sides[0]}"
@@ -103,14 +112,15 @@ def add_differences(page: Page, data: Data) -> None:
         "interval is Student's; elsewhere it is Welch's. The intervals are of one difference each: none allows for the others."
     )
     caption += f" Averaged over {' and '.join(averaged)}." if averaged else ""
-    page.table(without_empty(pd.DataFrame(rows)), caption)
+    page.table(without_empty(table[:first]), caption)
+    page.table(without_empty(table[first:]), folded="Differences of the other measures")
 
 
 def differences_in_words(data: Data) -> str:
     """The first differences in a sentence; "" without groups."""
     side, sides = _sides(data)
     cases = list(_cases(data, side, apart=False)) if side else []
-    late = [case for case in cases if case.what.endswith(", late") or case.what.startswith("threshold")]
+    late = [case for case in cases if case.is_learned and not case.what.endswith(_NOT_LATE)]
     texts: list[str] = []
     counts: dict[str, None] = {}
     for case in (late or cases)[:_MOST_IN_WORDS]:
@@ -193,7 +203,7 @@ def _learned(data: Data, side: str) -> Iterator[_Case]:
         for window, called in {**WINDOWS, **DIFFERENCES}.items():
             if window in own and own[window].notna().any():
                 each = own[own[window].notna()][["person", "side", window]].rename(columns={window: "value"})
-                yield _Case(f"{names.get(str(measure), 'compensation')}, {called}", str(unit), str(part), each)
+                yield _Case(f"{names.get(str(measure), 'compensation')}, {called}", str(unit), str(part), each, True)
 
 
 def _thresholds(data: Data, side: str) -> Iterator[_Case]:
@@ -203,4 +213,4 @@ def _thresholds(data: Data, side: str) -> Iterator[_Case]:
     good = table[table["note"].isna() & table["threshold_share"].notna()]
     for procedure, own in good.groupby("procedure", sort=False):
         columns: dict[str, Any] = {side: "side", "threshold_share": "value"}
-        yield _Case(f"threshold, {procedure}", "", "", own[["person", *columns]].rename(columns=columns))
+        yield _Case(f"threshold, {procedure}", "", "", own[["person", *columns]].rename(columns=columns), True)

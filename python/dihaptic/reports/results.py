@@ -171,9 +171,12 @@ def _measured(data: Data) -> list[str]:
     axes = axes_of_design(data)
     apart = [name for name in (axes.get("colour"), axes.get("panel")) if name in _APART]
     main = [name for name in (axes.get("x"), axes.get("colour")) if name and name not in apart]
-    # each factor has a sentence of its own: a mean over surfaces would hide their effect
-    out = [_sentence(data, measure, [name, *apart], table) for table, measure in own for name in main]
-    out = list(dict.fromkeys(out)) or [_sentence(data, measure, apart, table) for table, measure in own]
+    # each factor has its sentence: a mean over surfaces hides what the surfaces do
+    out = []
+    for table, measure in own:
+        known = counting_trials(data, table).dropna(subset=[measure])
+        varied = [[name] for name in main if known[name].nunique() > 1]  # a question is perhaps asked in one condition alone
+        out += [_sentence(data, measure, [*name, *apart], table) for name in varied or [[]]]
     if out and len(names) > _MOST_MEASURES:
         out[-1] += " The tables have the other measures."
     return out
