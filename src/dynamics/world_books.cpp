@@ -64,6 +64,9 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
     if (rubbing > 0) {  // velocities are tangential to the arcs of the points
         rubbing = friction_W.dot(books.way(exchange.a, exchange.b, exchange.p_W)) / h + twisting;
     }
+    if (is_rigid && law.restitution == 0) {
+        pressing -= returned(carried(point), contact.gap, normal, n_W.dot(meeting.v_after), h);
+    }
     if (!ahead_of(point).isZero(0)) {
         // a rolling rim touches with this point halfway between before and after
         pressing = mean_work;
@@ -84,6 +87,16 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
     }
     exchange.found = std::max(0.0, pressing) + std::max(0.0, rubbing);
     books.take(exchange, meeting);
+}
+
+double World::Impl::returned(Carried& contact, double gap, double normal, double speed, double h) {
+    const double room = std::max(gap, 0.0) / h;
+    if (gap >= 0) contact.sunk = 0;
+    contact.sunk += normal * std::max(0.0, -speed - room);
+    const double undone = normal * std::clamp(speed, 0.0, std::max(0.0, -gap / h));
+    const double out = std::min(undone, contact.sunk);
+    contact.sunk -= out;
+    return out;
 }
 
 double World::Impl::loads_at(const contact::Contact& contact, const btManifoldPoint& point) const {

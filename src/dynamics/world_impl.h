@@ -199,6 +199,9 @@ struct World::Impl {
     /// Whether the island in `problem`, which no finger touches, is too large to be solved exactly
     /// in a tick. Such an island is solved once, and its contacts may be carried along.
     bool is_heap(const contact::SolveStats& stats);
+    /// Share of a penetration that a step undoes in the island being solved: less in a heap that no
+    /// finger touches.
+    double recovery_of_island(bool held) const;
     contact::SolveStats solve_island(double h, bool held);
     /// If a body bounces, solves the island again for the velocities after the step.
     void let_bounce(const contact::SolveSettings& how, double h, contact::SolveStats& stats);
@@ -247,6 +250,10 @@ struct World::Impl {
     /// is no room for all of them.
     bool publish_contacts(double h, std::vector<contact::Contact>& out);
     void take(const contact::Contact& contact, const btManifoldPoint& point, double h);
+    /// Energy that a contact gives back where it undoes a penetration: at most what it took while
+    /// the bodies entered each other, since the answer was not exact. `speed` is that at which they
+    /// separate [J].
+    static double returned(Carried& contact, double gap, double normal, double speed, double h);
     void take_joints(double h);
     /// Change, due to the loads of the step, in the speed at which a contact's bodies separate,
     /// multiplied by the contact force [W].

@@ -20,6 +20,10 @@ constexpr int kFewestSweepsOfHeap = 10;
 /// An island with more contacts than this is a heap if the limit on work ends its solve. Smaller
 /// ones, such as a tower of bars, have time for better guesses.
 constexpr size_t kFewContactsOfHeap = 64;
+/// The share of penetration_recovery that applies in such an island. In a jam, bodies can hardly
+/// move apart: undoing overlaps at the full speed takes forces several times as large as those that
+/// rest there, sweeps are far from these, and the energy that they supply makes the books differ.
+constexpr double kRecoveryOfHeap = 0.05;
 /// Represents an unbounded energy.
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
@@ -119,8 +123,16 @@ bool World::Impl::is_heap(const contact::SolveStats& stats) {
     return bounded && island_joints.empty() && problem.impulses().size() > kFewContactsOfHeap;
 }
 
+double World::Impl::recovery_of_island(bool held) const {
+    if (!has_fingers || held || !island_joints.empty()) return settings.penetration_recovery;
+    size_t contacts = 0;
+    for (const btPersistentManifold* manifold : island_contacts)
+        contacts += static_cast<size_t>(manifold->getNumContacts());
+    return (contacts > kFewContactsOfHeap ? kRecoveryOfHeap : 1) * settings.penetration_recovery;
+}
+
 contact::SolveStats World::Impl::solve_island(double h, bool held) {
-    problem.build(island_bodies, inverse_mass, island_contacts, h, settings.penetration_recovery,
+    problem.build(island_bodies, inverse_mass, island_contacts, h, recovery_of_island(held),
                   settings.warm_start);
     problem.add_joints(joints, island_joints, h, settings.warm_start);
     if (watcher) watcher(problem.problem(), problem.impulses());

@@ -32,6 +32,7 @@ struct Carried {
     double moment = 0;               ///< moment about the normal [N*m*s]
     Vec3 acts_at_W = Vec3::Zero();   ///< point of action, between the two surfaces
     ContactLaw law;
+    double sunk = 0;  ///< energy taken while the bodies entered each other, not yet returned [J]
     bool in_use = false;
 };
 
