@@ -144,7 +144,7 @@ class Learning(Drawn):
         self.assertIn("too narrow", made["learning-curve"].caption)
         table["block"] = "block number " + ((trial + table["person"].eq("sim-001")) // 16).astype(str)
         made = self.check(with_tables(self.rotation, adaptation=table))
-        self.assertIn("another order", made["learning-curve"].caption)
+        self.assertIn("order differs between people", made["learning-curve"].caption)
 
     def test_missing_values(self):
         table, fits = figures.read(self.rotation).table("adaptation"), figures.read(self.rotation).table("fits")

@@ -125,7 +125,7 @@ class Worlds(unittest.TestCase):
         for wrong in ({"mass": -1}, {"mass": 1e-300}, {"friction": 1e12}, {"weight": float("nan")}):
             with self.subTest(wrong), self.assertRaisesRegex(dh.Error, f"{next(iter(wrong))}: is "):
                 world.bodies["block"].scale(**wrong)
-        with self.assertRaisesRegex(dh.Error, "too hard"):
+        with self.assertRaisesRegex(dh.Error, "too strong"):
             world.bodies["block"].push((1e300, 0, 0))
         with self.assertRaisesRegex(dh.Error, "are negative"):
             world.step(-1)

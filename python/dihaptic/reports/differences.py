@@ -59,7 +59,7 @@ def difference(first: pd.Series, other: pd.Series) -> Difference:
     (2.0, -10.71, '2 pairs')
     >>> found = difference(pd.Series([1.0, 2.0, 3.0], list("abc")), pd.Series([2.0, 5.0], list("de")))
     >>> found.value, round(found.low, 2), found.n
-    (1.5, -12.83, '3 and 2')
+    (1.5, -10.49, '3 and 2')
     """
     both = first.index.intersection(other.index)
     if len(both):
