@@ -26,6 +26,7 @@ void add_export(CLI::App& app);
 void add_gui(CLI::App& app);
 void add_workspace(CLI::App& app);
 void add_calibrate(CLI::App& app);
+void add_calibrate_population(CLI::App& app);
 void add_register(CLI::App& app);
 void add_participant(CLI::App& app);
 void add_new(CLI::App& app);

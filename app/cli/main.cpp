@@ -88,6 +88,7 @@ int main(int argc, char** argv) {
     cli::add_gui(app);
     cli::add_workspace(app);
     cli::add_calibrate(app);
+    cli::add_calibrate_population(app);
     cli::add_register(app);
     cli::add_participant(app);
     cli::add_new(app);

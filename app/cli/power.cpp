@@ -1,14 +1,10 @@
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <memory>
 #include <thread>
 
 #include "command.h"
-#include "common/package.h"
+#include "python_command.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -51,23 +47,7 @@ std::vector<std::string> words_of(const PowerOptions& o) {
 void power(PowerOptions options) {
     if (options.jobs == 0)
         options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    const std::string package = app::python_folder();
-    const Error missing({options.file, 0}, "",
-                        "has no power yet, because the Python package computes it",
-                        "Type sudo apt install python3-dihaptic or, in a checkout, ./dev build.");
-    if (package.empty()) throw missing;
-    Launch launch = app::python_launch(package, "dihaptic.power_analysis.__main__");
-    const std::vector<std::string> words = words_of(options);
-    launch.arguments.insert(launch.arguments.end(), words.begin(), words.end());
-    std::fflush(stdout);  // must appear before the child's output
-    Child python;
-    if (const int failed = python.start(launch); failed != 0)
-        throw Error(
-            {options.file, 0}, "",
-            std::string("has no power yet: Python cannot be started: ") + std::strerror(failed),
-            "End other programs and try again.");
-    const int status = python.wait().value_or(-1);
-    exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : kFailed;
+    run_python(options.file, "power", "dihaptic.power_analysis.__main__", words_of(options));
 }
 
 }  // namespace

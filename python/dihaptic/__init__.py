@@ -32,6 +32,7 @@ except ImportError as _why:
 try:
     from . import env
     from .between import Attempt, BetweenTrials, Next
+    from .calibration import Calibration, calibrate_population
     from .files import Experiment, Part, Rig, Scene
     from .fits import (
         LearningCurveFit,
@@ -58,9 +59,9 @@ else:
 __version__: str = _facts.version()
 
 __all__ = [
-    "Attempt", "BetweenTrials", "Body", "Error", "Experiment", "Finger", "LearningCurveFit", "Live", "Moment", "Next", "NotThere",
+    "Attempt", "BetweenTrials", "Body", "Calibration", "Error", "Experiment", "Finger", "LearningCurveFit", "Live", "Moment", "Next", "NotThere",
     "Part", "Person", "Problem", "PsychometricFit", "Quantity", "Rehearsal", "Rig", "Scene", "Seen", "Session",
-    "SingleRateFit", "Study", "TwoRateFit", "World", "check", "env", "find_lift", "fit_learning_curve", "fit_psychometric",
+    "SingleRateFit", "Study", "TwoRateFit", "World", "calibrate_population", "check", "env", "find_lift", "fit_learning_curve", "fit_psychometric",
     "fit_single_rate", "fit_two_rate", "load", "observe", "plot", "power", "quantities", "quantity", "read_table", "recover",
     "rehearse", "replay", "report", "resume", "run", "shipped", "step_all",
 ]  # fmt: skip
