@@ -34,6 +34,7 @@ struct RehearseOptions {
     std::string population_file;
     std::optional<person::Population> population;
     int people = 1;
+    int laboratories = 0;  ///< from which the people come; 0 for as many as the population says
     int jobs = 1;
     int slurm = 0;          ///< number of shards for Slurm; 0 to run here
     std::string container;  ///< Apptainer file whose program runs the shards; "" for this program
@@ -78,7 +79,8 @@ int run_person(const RehearseOptions& options, const std::string& id,
         if (session::is_for_two(plan)) {
             run.partner.id = session::partner_of(id);
             partner = person::draw_person(*options.population, plan.seed, run.partner.id,
-                                          options.population->group_of(id));
+                                          options.population->group_of(id),
+                                          options.population->laboratory_of(id));
         }
         session::sit_down(plan, person::draw_person(*options.population, plan.seed, id), partner);
         run.out = place.path();
@@ -147,16 +149,23 @@ CrowdWork work_of(const RehearseOptions& options) {
 
 /// The command that runs the sessions of all people of this rehearsal, from any folder.
 std::string command_again(const RehearseOptions& options) {
-    return RehearseCommand{options.request.file,
-                           options.people,
-                           number_text(options.request.seed),
-                           options.out,
-                           options.population_file,
-                           options.real_objects,
-                           options.keep_recordings,
-                           options.jobs,
-                           options.container}
+    return RehearseCommand{
+        options.request.file, options.people,          number_text(options.request.seed),
+        options.out,          options.population_file, options.laboratories,
+        options.real_objects, options.keep_recordings, options.jobs,
+        options.container}
         .text();
+}
+
+/// Fewer than two people do not show how people of one laboratory differ.
+void check_laboratories(const RehearseOptions& options) {
+    const int laboratories = options.population->laboratories;
+    if (laboratories == 0 || options.people >= 2 * laboratories) return;
+    throw Error(
+        {"--laboratories", 0}, "",
+        fmt::format("are {}, but there are only {}", laboratories,
+                    fmt::format("{} people", options.people)),
+        fmt::format("Rehearse at least two people of each: --people {}.", 2 * laboratories));
 }
 
 /// Reads and checks all files, and claims the folder. Returns the experiment's title and the
@@ -174,6 +183,8 @@ std::pair<std::string, Asked> prepare(RehearseOptions& options, const Shard& sha
     options.population = person::population_of(
         options.population_file,
         options.real_objects ? person::Objects::real : person::Objects::device);
+    if (options.laboratories > 0) options.population->laboratories = options.laboratories;
+    check_laboratories(options);
     if (options.out.empty()) options.out = usual_folder(options.request);
     session::Rehearsal rehearsal = session::rehearsal_of(plan, write_fields(*options.population));
     rehearsal.asked = {options.people, shard.of, command_again(options)};
@@ -260,6 +271,7 @@ bool rehearse_as_study(const RehearseOptions& options, const CLI::App& command) 
     study.population = person::population_of(
         options.population_file,
         options.real_objects ? person::Objects::real : person::Objects::device);
+    if (options.laboratories > 0) study.population.laboratories = options.laboratories;
     rehearse_study(study);
     return true;
 }
@@ -310,6 +322,11 @@ void add_rehearse(CLI::App& app) {
             "for")
         ->check(CLI::Range(1, session::kMostPeople))
         ->capture_default_str();
+    command
+        ->add_option("--laboratories", options->laboratories,
+                     "number of laboratories from which the people come in turn, whose medians "
+                     "differ as the population says; default: all come from a median one")
+        ->check(CLI::Range(1, person::kMostLaboratories));
     command->add_option("--jobs", options->jobs, "number of sessions at a time")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();

@@ -8,6 +8,7 @@
 
 #include "base/number.h"
 #include "base/shell_word.h"
+#include "person/population.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -55,6 +56,10 @@ std::optional<size_t> take(const std::vector<std::string>& words, size_t at,
     if (option == "--population") {
         if (!value.starts_with('/')) return std::nullopt;
         command.population = value;
+    } else if (option == "--laboratories") {
+        const auto laboratories = number(value, person::kMostLaboratories);
+        if (!laboratories) return std::nullopt;
+        command.laboratories = *laboratories;
     } else if (option == "--jobs") {
         const auto jobs = number(value, 1024);
         if (!jobs) return std::nullopt;
@@ -88,6 +93,7 @@ std::string RehearseCommand::text() const {
     std::string text = fmt::format("{} rehearse {} --people {} --seed {} --out {}",
                                    program(container), word(file), people, seed, word(out));
     if (!population.empty()) text += " --population " + word(population);
+    if (laboratories > 0) text += fmt::format(" --laboratories {}", laboratories);
     if (real_objects) text += " --real-objects";
     if (keep_recordings) text += " --keep-recordings";
     if (jobs != 1) text += fmt::format(" --jobs {}", jobs);

@@ -18,6 +18,7 @@ struct RehearseCommand {
     std::string seed;
     std::string out;         ///< folder
     std::string population;  ///< population file; empty for the program's own
+    int laboratories = 0;    ///< 0 for as many as the population says
     bool real_objects = false;
     bool keep_recordings = false;
     int jobs = 1;

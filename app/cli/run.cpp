@@ -162,7 +162,8 @@ void run_one(SessionOptions& options) {
         if (session::is_for_two(plan)) {
             std::string& other = options.run.partner.id;
             other = other.empty() ? session::partner_of(id) : recording::simulated_id(other);
-            partner = person::draw_person(people, seed, other, people.group_of(id));
+            partner = person::draw_person(people, seed, other, people.group_of(id),
+                                          people.laboratory_of(id));
         }
         session::sit_down(plan, person::draw_person(people, seed, id), partner);
         plan.moved_by.seed = number_text(seed);

@@ -101,7 +101,8 @@ person::Traits traits_of(const person::Population& population, uint64_t seed,
     const auto named = std::ranges::find(population.groups, member.group, &person::Group::name);
     return named == population.groups.end()
                ? person::draw_person(population, seed, member.id)
-               : person::draw_person(population, seed, member.id, member.group);
+               : person::draw_person(population, seed, member.id, member.group,
+                                     population.laboratory_of(member.id));
 }
 
 /// What a participant and, in tasks for two, the partner learned in earlier sessions.

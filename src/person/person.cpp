@@ -50,6 +50,10 @@ size_t first_finger(const Situation& situation) {
     return situation.task->first_fingers[situation.participant];
 }
 
+RotationMemory rotation_memory(const Traits& traits) {
+    return {traits.rotation(), traits.generalisation, {traits.fast_limit, traits.slow_limit}};
+}
+
 /// The fingers that the person moves with skill: with several participants, the fingers of this
 /// participant; with one participant, all fingers of the scene before those of another hand. Throws
 /// Error if the fingers of another hand are not the last ones.
@@ -148,7 +152,8 @@ Person::Person(const Traits& traits, const Situation& situation)
       strains_(traits.visual_delay, situation.tick),
       known_(plan_->task.regions.size(), Vec3::Zero()),
       cursor_(plan_->states),
-      rotations_(plan_->states.size(), RotationMemory(traits.rotation(), traits.generalisation)),
+      appears_(plan_->states.size(), 0),
+      rotations_(plan_->states.size(), rotation_memory(traits)),
       gains_(plan_->states.size(), GainMemory(traits.gain())),
       forces_(plan_->states.size(), ForceMemory(traits.force(), traits.force_generalisation)),
       grip_(traits, looks_of(situation.scene, first_, traits, situation.seed), situation.tick) {
@@ -175,8 +180,8 @@ void Person::restart() {
     velocities_.clear();
     strains_.clear();
     grip_.restart();
-    std::fill(rotations_.begin(), rotations_.end(),
-              RotationMemory(traits_.rotation(), traits_.generalisation));
+    std::fill(appears_.begin(), appears_.end(), 0);
+    std::fill(rotations_.begin(), rotations_.end(), rotation_memory(traits_));
     std::fill(gains_.begin(), gains_.end(), GainMemory(traits_.gain()));
     std::fill(forces_.begin(), forces_.end(),
               ForceMemory(traits_.force(), traits_.force_generalisation));
@@ -191,6 +196,7 @@ void Person::restart() {
     since_ = wait_until_ = delay_ = 0;
     step_ = 0;
     corrections_ = 0;
+    shows_ = 1;
     reach_ = {};
     moved_at_ = 0;
     velocity_ = off_felt_ = Vec3::Zero();

@@ -85,6 +85,7 @@ class Person final : public task::SeeingDriver {
     void give_way() noexcept;
     void follow_jumps(const Sight& sight) noexcept;
     void redirect(const Vec3& displacement) noexcept;
+    double beyond_noise(double angle, double distance) const noexcept;
     void watch_reach(const Sight& sight) noexcept;
     void end_reach() noexcept;
     bool correct(const Sight& sight) noexcept;
@@ -93,6 +94,7 @@ class Person final : public task::SeeingDriver {
     const Vec3& felt_where_shown() const noexcept;
     bool shows_earlier_reach() const noexcept;
     bool from_above(const Vec3& displacement) const noexcept;
+    Vec3 expected_turn(const Vec3& d) const noexcept;
     Vec3 made_for(const Vec3& displacement) const noexcept;
     void judge_extent(const Sight& sight) noexcept;
     Vec3 target(const Sight& sight, const task::TaskPlan::Step& step) const noexcept;
@@ -136,7 +138,8 @@ class Person final : public task::SeeingDriver {
     // memory
     Learned before_;  // what was learned in earlier sessions
     std::vector<std::string> bodies_;
-    std::vector<size_t> memory_;             // by state: which of the following it uses
+    std::vector<size_t> memory_;  // by state: which of the following it uses
+    std::vector<char> appears_;   // by state: whether a hidden cursor appeared later, the last time
     std::vector<RotationMemory> rotations_;  // by the first state that uses it
     std::vector<GainMemory> gains_;          // likewise
     std::vector<ForceMemory> forces_;        // likewise
@@ -158,6 +161,7 @@ class Person final : public task::SeeingDriver {
     Aim pending_;              // current movement; in a lift, it starts when the object lifts off
     double pending_time_ = 0;  // duration of pending_ [s]
     int corrections_ = 0;
+    double shows_ = 1;     // share of learned rotations that this reach shows
     double missed_ = 0;    // distance from the target before the last correction [m]
     double moved_at_ = 0;  // last time when the hand was felt to move [s]
     Vec3 off_felt_ =
@@ -170,6 +174,8 @@ class Person final : public task::SeeingDriver {
         bool ended = false;   // whether its first stroke has ended and its extent was judged
         bool pushed = false;  // whether a push was felt before its error was judged
         int number = 0;       // from 1
+        size_t state = 0;     // index of the state in which it began
+        bool hidden = false;  // whether it began without a cursor
         size_t memory = 0;    // index into rotations_, gains_ and forces_
         Vec3 cursor_off = Vec3::Zero();  // jump of the cursor that is not answered yet [m]
         double jumped_at = 0;            // last time without such a jump, or one of the target [s]

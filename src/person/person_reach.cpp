@@ -61,13 +61,19 @@ bool Person::from_above(const Vec3& displacement) const noexcept {
     return places_.size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
 }
 
+/// The rotation by which the person expects the display to turn a reach along the unit vector d, as
+/// far as this reach shows it [rad].
+Vec3 Person::expected_turn(const Vec3& d) const noexcept {
+    return shows_ * rotations_[memory_[static_cast<size_t>(acting_ - 1)]].expected(d);
+}
+
 /// The movement that the hand must make so that the display shows `displacement`, as far as the
 /// person has learned this.
 Vec3 Person::made_for(const Vec3& displacement) const noexcept {
     if (displacement.norm() < 1e-9) return displacement;
     const size_t m = memory_[static_cast<size_t>(acting_ - 1)];
     const Vec3 d = displacement.normalized();
-    return std::exp(-gains_[m].expected(d)) * rotated(-rotations_[m].expected(d), displacement);
+    return std::exp(-gains_[m].expected(d)) * rotated(-expected_turn(d), displacement);
 }
 
 /// Plans a reach from where the hand is seen to `goal`. Returns the hand's movement.
@@ -76,10 +82,17 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& goal) noexcept {
                               look(hand(sight), traits_.visual_noise, random_);
     if (displacement.norm() < kReach) return made_for(displacement);
     end_reach();
+    const auto state = static_cast<size_t>(acting_ - 1);
+    // a cursor that appeared later in the reach, the last time that it was hidden at first, will do
+    // so again
+    const bool unseen = !sight.hand_shown && !appears_[state];
+    shows_ = unseen ? traits_.unseen_share : 1;
     const Vec3 made = made_for(displacement);
     reach_ = {.going = true,
               .number = reach_.number + 1,
-              .memory = memory_[static_cast<size_t>(acting_ - 1)],
+              .state = state,
+              .hidden = !sight.hand_shown,
+              .memory = memory_[state],
               .from = hand(sight),
               .felt_from = felt_hand(),
               .way = displacement,
@@ -231,6 +244,13 @@ void Person::follow_jumps(const Sight& sight) noexcept {
     reach_.cursor_off = Vec3::Zero();
 }
 
+/// The share of an angle, seen at a distance, that the noise of sight does not explain: nothing is
+/// corrected, and nothing is learned, because of an error that is no larger than this noise.
+double Person::beyond_noise(double angle, double distance) const noexcept {
+    const double noise = kLookError * traits_.visual_noise / distance;
+    return std::max(0.0, 1 - std::pow(noise / std::max(angle, 1e-9), 2));
+}
+
 /// Corrects part of a reach's error as soon as its direction is visible, and judges the direction
 /// before the effect of the correction becomes visible.
 void Person::watch_reach(const Sight& sight) noexcept {
@@ -242,11 +262,9 @@ void Person::watch_reach(const Sight& sight) noexcept {
         const Vec3 arm = look(shown, traits_.visual_noise, random_).normalized();
         const Vec3 missed = reach_.way - length * arm;
         const double left = std::max(kShortest, aim_.end() - now_);
-        // of an error that is no larger than the noise of sight, nothing is corrected
-        const double noise = kLookError * traits_.visual_noise / shown.norm();
-        const double angle = rotation_between(reach_.way / length, arm).norm();
-        const double share = traits_.online_correction *
-                             std::max(0.0, 1 - std::pow(noise / std::max(angle, 1e-9), 2));
+        const double share =
+            traits_.online_correction *
+            beyond_noise(rotation_between(reach_.way / length, arm).norm(), shown.norm());
         if (doing_ == Doing::moving && share > 0 && !cursor_.is_held())
             aim_.add({share * made_for(missed), 0, 0}, now_, left);
     }
@@ -260,7 +278,8 @@ void Person::watch_reach(const Sight& sight) noexcept {
         const Vec3 felt = felt_where_shown() - reach_.felt_from;
         wanted = rotated(rotations_[reach_.memory].expected(reach_.way.normalized()), felt);
     }
-    reach_.error = rotation_between(wanted.normalized(), arm.normalized());
+    const Vec3 error = rotation_between(wanted.normalized(), arm.normalized());
+    reach_.error = beyond_noise(error.norm(), shown.norm()) * error;
 }
 
 /// When the first stroke of a reach has ended, judges the extent of the reach and learns from it. A
@@ -283,6 +302,7 @@ void Person::judge_extent(const Sight& sight) noexcept {
 }
 
 void Person::end_reach() noexcept {
+    if (reach_.going && reach_.hidden) appears_[reach_.state] = reach_.seen;
     if (reach_.going && reach_.seen) {
         rotations_[reach_.memory].learn(reach_.way.normalized(), reach_.error);
         if (reach_.pushed) {

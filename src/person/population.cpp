@@ -29,18 +29,20 @@ constexpr std::array kNoise{"visual_noise",  "reaction_noise", "tempo_noise",   
                             "reflex_noise",  "force_noise",    "friction_error", "hesitation_rate",
                             "slip_rate",     "give_up_rate"};
 
-double drawn(const TraitSpread& row, double z) {
+/// A trait of a person who differs from the laboratory's median by z, where the laboratory differs
+/// from other laboratories by y.
+double drawn(const TraitSpread& row, double z, double y) {
     const double median = *row.median;
-    const double spread = *row.spread;
+    const double shift = *row.spread * z + row.between_laboratories.value_or(0) * y;
     switch (*row.law) {
         case Law::normal:
-            return median + spread * z;
+            return median + shift;
         case Law::log_normal:
-            return median * std::exp(spread * z);
+            return median * std::exp(shift);
         case Law::logit:
-            return 1 / (1 + (1 / median - 1) * std::exp(-spread * z));
+            return 1 / (1 + (1 / median - 1) * std::exp(-shift));
         case Law::forgetting:
-            return 1 - (1 - median) * std::exp(-spread * z);
+            return 1 - (1 - median) * std::exp(-shift);
     }
     return median;
 }
@@ -57,6 +59,7 @@ void overlay(TraitSpread& trait, const TraitSpread& change) {
     if (change.law) trait.law = change.law;
     if (change.median) trait.median = change.median;
     if (change.spread) trait.spread = change.spread;
+    if (change.between_laboratories) trait.between_laboratories = change.between_laboratories;
     if (!change.source.empty()) trait.source = change.source;
     trait.place = change.place;
 }
@@ -95,6 +98,7 @@ struct TraitNames {
     void operator()(std::string_view name, double&, Field) { names.emplace_back(name); }
     void operator()(std::string_view, std::string&) {}
     void operator()(std::string_view, Objects&) {}
+    void operator()(std::string_view, int&, Field) {}
 };
 
 const std::vector<std::string>& all_traits() {
@@ -124,7 +128,7 @@ void check_bounds(const Population& population, const std::string& group,
     const auto rows = traits_of(population, group);
     for (const double z : {0.0, -kFarthest, kFarthest}) {
         std::vector<double> values;
-        for (const TraitSpread& row : rows) values.push_back(drawn(row, z));
+        for (const TraitSpread& row : rows) values.push_back(drawn(row, z, z));
         Diagnostics found;
         traits_with(rows, values, found);
         diagnostics.add(found.problems());
@@ -141,8 +145,9 @@ void check_group(const Population& population, const Group& group, Diagnostics& 
     check_bounds(population, group.name, diagnostics);
 }
 
-/// The correlation matrix of all traits, in the order of the traits.
-Eigen::MatrixXd correlations(const Population& population) {
+/// The correlation matrix of all traits, in the order of the traits, over people or over
+/// laboratories (`r`).
+Eigen::MatrixXd correlations(const Population& population, double Correlation::*r) {
     const auto n = static_cast<Eigen::Index>(population.traits.size());
     Eigen::MatrixXd out = Eigen::MatrixXd::Identity(n, n);
     const auto index = [&](const std::string& name) {
@@ -153,7 +158,7 @@ Eigen::MatrixXd correlations(const Population& population) {
     for (const Correlation& c : population.correlations) {
         const auto a = index(c.traits[0]);
         const auto b = index(c.traits[1]);
-        out(a, b) = out(b, a) = c.r;
+        out(a, b) = out(b, a) = c.*r;
     }
     return out;
 }
@@ -176,10 +181,14 @@ void check_correlations(const Population& population, const std::string& file,
         }
     }
     if (diagnostics.has_errors() || population.correlations.empty()) return;
-    if (Eigen::LLT<Eigen::MatrixXd>(correlations(population)).info() != Eigen::Success)
+    for (const auto r : {&Correlation::r, &Correlation::between_laboratories}) {
+        if (Eigen::LLT<Eigen::MatrixXd>(correlations(population, r)).info() == Eigen::Success)
+            continue;
         diagnostics.error({file, 0}, "correlations", "contradict each other",
                           "Three or more traits cannot be correlated arbitrarily: make the "
                           "correlations smaller.");
+        return;
+    }
 }
 
 void check(const Population& population, const std::string& file, Diagnostics& diagnostics) {
@@ -221,6 +230,7 @@ Population resolved(Population change, Population base) {
     change.traits = std::move(base.traits);
     if (change.correlations.empty()) change.correlations = std::move(base.correlations);
     if (change.groups.empty()) change.groups = std::move(base.groups);
+    if (change.laboratories == 0) change.laboratories = base.laboratories;
     change.based_on.clear();
     return change;
 }
@@ -313,6 +323,10 @@ Population population_of(const std::string& file, Objects objects) {
     return file.empty() ? shipped_population(objects) : read_population(file);
 }
 
+int Population::laboratory_of(const std::string& id) const {
+    return laboratories == 0 ? 0 : (number_in_group(id) - 1) % laboratories + 1;
+}
+
 Traits median_person(const Population& population, const std::string& group) {
     const auto rows = traits_of(population, group);
     std::vector<double> values;
@@ -328,26 +342,36 @@ Traits median_person(const Population& population, const std::string& group) {
 }
 
 Traits draw_person(const Population& population, uint64_t seed, const std::string& id) {
-    return draw_person(population, seed, id, population.group_of(id));
+    return draw_person(population, seed, id, population.group_of(id), population.laboratory_of(id));
 }
 
 Traits draw_person(const Population& population, uint64_t seed, const std::string& id,
-                   const std::string& group) {
+                   const std::string& group, int laboratory) {
     const auto rows = traits_of(population, group);
-    Eigen::VectorXd u(static_cast<Eigen::Index>(rows.size()));
-    for (Eigen::Index i = 0; i < u.size(); ++i) {
-        const std::string trait = without_unit(rows[static_cast<size_t>(i)].trait);
-        u[i] = Random(seed, fmt::format("person {}, {}", id, trait)).normal();
-    }
-    const Eigen::VectorXd z = Eigen::LLT<Eigen::MatrixXd>(correlations(population)).matrixL() * u;
+    const auto deviations = [&](const std::string& whose, double Correlation::*r) {
+        Eigen::VectorXd u(static_cast<Eigen::Index>(rows.size()));
+        for (Eigen::Index i = 0; i < u.size(); ++i) {
+            const std::string trait = without_unit(rows[static_cast<size_t>(i)].trait);
+            u[i] = Random(seed, fmt::format("{}, {}", whose, trait)).normal();
+        }
+        const Eigen::VectorXd z =
+            Eigen::LLT<Eigen::MatrixXd>(correlations(population, r)).matrixL() * u;
+        return Eigen::VectorXd(z.cwiseMax(-kFarthest).cwiseMin(kFarthest));
+    };
+    const auto z = deviations("person " + id, &Correlation::r);
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(z.size());
+    if (laboratory > 0)
+        y = deviations(fmt::format("laboratory {}", laboratory),
+                       &Correlation::between_laboratories);
     std::vector<double> values;
     for (size_t i = 0; i < rows.size(); ++i) {
-        const double cut = std::clamp(z[static_cast<Eigen::Index>(i)], -kFarthest, kFarthest);
-        values.push_back(drawn(rows[i], cut));
+        const auto k = static_cast<Eigen::Index>(i);
+        values.push_back(drawn(rows[i], z[k], y[k]));
     }
     Diagnostics diagnostics;
-    const Traits out = traits_with(rows, values, diagnostics);
+    Traits out = traits_with(rows, values, diagnostics);
     diagnostics.throw_if_errors();
+    out.laboratory = laboratory;
     return with_names(out, population, group, id);
 }
 

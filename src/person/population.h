@@ -5,6 +5,10 @@
 // to between -2.5 and 2.5. Correlated traits have z = L u, where the elements of u are independent
 // and R = L L^T is the correlation matrix. Each element of u comes from a random stream of its own,
 // named after the person and the trait, so a person does not depend on which others are drawn.
+//
+// Laboratories differ in their instructions, apparatus and participants: the medians of their
+// people are displaced, in the same laws, by `between_laboratories` y, where y is drawn for the
+// laboratory as z is drawn for a person.
 #pragma once
 
 #include <array>
@@ -34,8 +38,9 @@ constexpr auto enum_names(Law) {
 struct TraitSpread {
     std::string trait;  ///< key in person.yaml, including the unit, if there is one
     std::optional<Law> law;
-    std::optional<double> median;  ///< in the unit of the key
-    std::optional<double> spread;  ///< factor on z in the law
+    std::optional<double> median;                ///< in the unit of the key
+    std::optional<double> spread;                ///< factor on z in the law
+    std::optional<double> between_laboratories;  ///< factor on y; 0 if omitted
     std::string source;
     Place place;
 
@@ -47,6 +52,9 @@ struct TraitSpread {
         v("law", law, says("Distribution of the trait over people."));
         v("median", median, says("Median of the trait, in the unit that its name gives."));
         v("spread", spread, Field::number().within(0, 10).says("Factor of z in the law."));
+        v("between_laboratories", between_laboratories,
+          Field::number().within(0, 10).says(
+              "Spread of the median over laboratories, in the same law."));
         v("source", source, says("Source of these numbers."));
     }
 };
@@ -54,12 +62,17 @@ struct TraitSpread {
 struct Correlation {
     std::vector<std::string> traits;  ///< two
     double r = 0;                     ///< correlation between the z of the two traits
+    double between_laboratories = 0;  ///< correlation between their y
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("traits", traits, Field::text().required().says("Two traits."));
         v("r", r, Field::number().within(-0.99, 0.99).says("Correlation of their z."));
+        v("between_laboratories", between_laboratories,
+          Field::number()
+              .within(-0.99, 0.99)
+              .says("Correlation of the medians of laboratories, in the traits' laws."));
     }
 };
 
@@ -75,6 +88,8 @@ struct Group {
     }
 };
 
+inline constexpr int kMostLaboratories = 1000;
+
 struct Population {
     std::string title;
     std::string about;     ///< description, for human readers
@@ -83,6 +98,8 @@ struct Population {
     std::vector<TraitSpread> traits;
     std::vector<Correlation> correlations;
     std::vector<Group> groups;  ///< groups, to which people are assigned in turn; may be empty
+    /// Number of laboratories from which people come in turn; 0 if all are from a median one.
+    int laboratories = 0;
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -95,6 +112,11 @@ struct Population {
         v("traits", traits, says("Distribution of each trait."));
         v("correlations", correlations, says("Correlations between traits."));
         v("groups", groups, says("Groups to which people are assigned in turn."));
+        v("laboratories", laboratories,
+          Field::number()
+              .within(0, kMostLaboratories)
+              .says("Number of laboratories from which people come in turn; 0 for one median "
+                    "laboratory."));
     }
 
     /// Name of a person's group, which depends on the number at the end of `id`; empty if there are
@@ -103,6 +125,8 @@ struct Population {
     /// Number of a person within the group, from 1. It determines counterbalanced orders, because
     /// the number in `id` would give different groups different orders.
     int number_in_group(const std::string& id) const;
+    /// Number of a person's laboratory, from 1; 0 if there are none.
+    int laboratory_of(const std::string& id) const;
 };
 
 /// Reads a population file and the file on which it is based. Throws Error with all faults: unknown
@@ -121,9 +145,10 @@ Traits median_person(const Population& population, const std::string& group = ""
 /// Draws person `id` from the population with this seed. The result does not depend on which other
 /// people are drawn.
 Traits draw_person(const Population& population, uint64_t seed, const std::string& id);
-/// Draws person `id` from one group of the population.
+/// Draws person `id` from one group and one laboratory of the population; `laboratory` as returned
+/// by Population::laboratory_of().
 Traits draw_person(const Population& population, uint64_t seed, const std::string& id,
-                   const std::string& group);
+                   const std::string& group, int laboratory);
 
 /// The median person of a shipped population.
 Traits median_person(Objects objects);

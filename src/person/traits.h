@@ -24,6 +24,7 @@ struct Traits {
     std::string id;
     std::string population;  ///< title of the population from which the person was drawn
     std::string group;       ///< group in that population; empty if there are no groups
+    int laboratory = 0;      ///< number of the person's laboratory; 0 for a median laboratory
     Objects objects = Objects::device;
 
     double visual_delay = 0;       ///< delay from an event on the screen to the response [s]
@@ -41,7 +42,10 @@ struct Traits {
     double fast_learning = 0;
     double slow_retention = 0;
     double slow_learning = 0;
+    double fast_limit = 0;      ///< error above which the fast process learns hardly more [rad]
+    double slow_limit = 0;      ///< likewise for the slow process; 0 for no limit
     double generalisation = 0;  ///< generalisation width (SD) of the slow process [rad]
+    double unseen_share = 0;    ///< share of what was learned that shows without a cursor
 
     double gain_retention = 0;  ///< per movement; for adaptation to scaled displays
     double gain_learning = 0;
@@ -99,6 +103,7 @@ struct Traits {
         v("id", id);
         v("population", population);
         v("group", group);
+        v("laboratory", laboratory, Field::number().within(0, 1000));
         v("objects", objects);
         v("visual_delay", visual_delay, Field::of(Quantity::time).within(0, 1));
         v("visual_noise", visual_noise, Field::length().within(0, 1));
@@ -114,7 +119,10 @@ struct Traits {
         v("fast_learning", fast_learning, share);
         v("slow_retention", slow_retention, share);
         v("slow_learning", slow_learning, share);
+        v("fast_limit", fast_limit, angle);
+        v("slow_limit", slow_limit, angle);
         v("generalisation", generalisation, angle.positive());
+        v("unseen_share", unseen_share, share);
         v("gain_retention", gain_retention, share);
         v("gain_learning", gain_learning, share);
         v("force_fast_retention", force_fast_retention, share);

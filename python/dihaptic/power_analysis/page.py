@@ -169,8 +169,7 @@ def warnings_of(result: Power) -> list[str]:
     if result.effect.has_fixed_value:
         out.append(
             "The effect compares people with a fixed number. This requires the mean of simulated people to be right, not "
-            "only their differences; in rotations, means for schedules other than the calibrated one differ from those of real "
-            "people by up to 11 degrees."
+            "only their differences; in rotations, their mean differs from that of a group of real people by up to 9 degrees."
         )
     out += [f"Left out: {why}." for why in result.data.left_out]
     out += _drivers(result)

@@ -74,7 +74,7 @@ TEST(Strokes, KeepTheirPlaceHoweverManyThereAre) {
 
 TEST(RotationMemory, IsTheTwoRateModelForOneTarget) {
     const model::TwoRate rates = model::kSmith2006;
-    RotationMemory memory(rates, 0.6);
+    RotationMemory memory(rates, 0.6, {});
     model::TwoRateState state;
     const Vec3 d = Vec3(0, 1, 0);
     for (int n = 0; n < 200; ++n) {
@@ -86,9 +86,22 @@ TEST(RotationMemory, IsTheTwoRateModelForOneTarget) {
     }
 }
 
+TEST(RotationMemory, LearnsHardlyMoreFromErrorsAboveItsLimits) {
+    const ErrorLimits limits{0.35, 0.12};
+    const auto learned = [&](double error) {
+        RotationMemory memory({{0.6, 0.5}, {0.99, 0.1}}, 0.6, limits);
+        memory.learn(Vec3::UnitY(), Vec3(0, 0, error));
+        return memory.expected(Vec3::UnitY()).z();
+    };
+    EXPECT_NEAR(learned(1e-3), (0.5 + 0.1) * 1e-3, 1e-8);
+    EXPECT_NEAR(learned(0.5),
+                0.5 * 0.35 * std::tanh(0.5 / 0.35) + 0.1 * 0.12 * std::tanh(0.5 / 0.12), 1e-12);
+    EXPECT_NEAR(learned(-3), -(0.5 * 0.35 + 0.1 * 0.12), 1e-7);
+}
+
 TEST(RotationMemory, GeneralisesWhatIsSlowByAGaussianOfDirections) {
     const double width = 0.6;
-    RotationMemory memory({{0.6, 0}, {0.99, 0.03}}, width);
+    RotationMemory memory({{0.6, 0}, {0.99, 0.03}}, width, {});
     const auto direction = [](double angle) { return Vec3(std::sin(angle), std::cos(angle), 0); };
     for (int n = 0; n < 50; ++n) memory.learn(direction(0), Vec3(0, 0, 0.1));
     const double here = memory.expected(direction(0)).z();

@@ -56,11 +56,58 @@ TEST(Population, HasGroupsInTurnThatDifferInWhatTheyName) {
     EXPECT_EQ(control.group, "control");
     EXPECT_EQ(patient.group, "patients");
     EXPECT_EQ(patient.population, "Mine");
-    EXPECT_EQ(patient.slow_retention, 0.95);
+    EXPECT_NEAR(patient.slow_retention, 0.95, 1e-12);
     EXPECT_EQ(median_person(population, "patients").slow_retention, 0.95);
     // groups do not change which people are drawn
     EXPECT_EQ(patient.tempo, draw_person(Objects::device, 1, "sim-002").tempo);
     EXPECT_EQ(control.slow_retention, draw_person(Objects::device, 1, "sim-001").slow_retention);
+}
+
+TEST(Population, HasLaboratoriesInTurnWhoseMediansDiffer) {
+    const std::string traits = R"(traits:
+  - { trait: tempo, law: log_normal, median: 1, spread: 0.1, between_laboratories: 0.4 }
+  - { trait: tempo_noise, law: log_normal, median: 0.07, spread: 0.2, between_laboratories: 0.3 }
+correlations:
+  - { traits: [tempo, tempo_noise], r: 0, between_laboratories: 0.9 }
+)";
+    const Population one = File().read(traits);
+    const Population many = File().read("laboratories: 400\n" + traits);
+    std::vector<double> tempo;  // of laboratories, as the log of their ratio to the median one
+    std::vector<double> noise;
+    for (int i = 1; i <= 400; ++i) {
+        const std::string id = "sim-" + number_text(i);
+        const Traits here = draw_person(many, 1, id);
+        const Traits median = draw_person(one, 1, id);
+        EXPECT_EQ(here.laboratory, i);
+        EXPECT_EQ(median.laboratory, 0);
+        tempo.push_back(std::log(here.tempo / median.tempo));
+        noise.push_back(std::log(here.tempo_noise / median.tempo_noise));
+        EXPECT_EQ(here.reaction_time, median.reaction_time);  // no difference is stated
+    }
+    double xx = 0, yy = 0, xy = 0;
+    for (size_t i = 0; i < tempo.size(); ++i) {
+        xx += tempo[i] * tempo[i] / 400;
+        yy += noise[i] * noise[i] / 400;
+        xy += tempo[i] * noise[i] / 400;
+    }
+    // the standard error of an SD of 400 values is 3.5 %
+    EXPECT_NEAR(std::sqrt(xx), 0.4, 0.05);
+    EXPECT_NEAR(std::sqrt(yy), 0.3, 0.04);
+    EXPECT_NEAR(xy / std::sqrt(xx * yy), 0.9, 0.03);
+    // people of one laboratory are displaced alike
+    const Population two = File().read("laboratories: 2\n" + traits);
+    const auto shift = [&](const std::string& id) {
+        return draw_person(two, 1, id).tempo / draw_person(one, 1, id).tempo;
+    };
+    EXPECT_NEAR(shift("sim-001"), shift("sim-003"), 1e-12);
+    EXPECT_GT(std::abs(shift("sim-001") - shift("sim-002")), 1e-3);
+    EXPECT_NE(File()
+                  .refused(traits + "  - { traits: [tempo, extent_noise], r: 0, "
+                                    "between_laboratories: 0.9 }\n"
+                                    "  - { traits: [tempo_noise, extent_noise], r: 0, "
+                                    "between_laboratories: -0.9 }\n")
+                  .find("contradict each other"),
+              std::string::npos);
 }
 
 TEST(Population, CountsPeopleWithinTheirGroup) {

@@ -19,7 +19,11 @@ TEST(Reaches, OfAPersonWithoutNoiseFollowTheTwoRateModelIncludingCatchTrialsAndT
 )");
     session::Plan plan = sitting.plan();
     Traits traits = median_person(Objects::device);
-    traits.online_correction = 0;
+    traits.online_correction = traits.fast_limit = traits.slow_limit = 0;
+    traits.fast_retention = 0.52;
+    traits.fast_learning = 0.35;
+    traits.slow_retention = 0.9999;
+    traits.slow_learning = 0.03;
     sit_down(plan, traits);
     const Curve curve = reaches(plan);
     const std::vector<double> x = model::compensation(traits.rotation(), schedule(plan));
@@ -39,6 +43,28 @@ TEST(Reaches, OfAPersonWithoutNoiseFollowTheTwoRateModelIncludingCatchTrialsAndT
     // the washout begins with an after-effect, which then decays
     const size_t washout = clamp + 24;
     EXPECT_GT(curve.hand[washout], curve.hand[washout + 7] + 1);
+}
+
+TEST(Reaches, OfAPersonWhoLearnsHardlyMoreFromLargeErrorsFollowThatModel) {
+    Sitting sitting("rotation-reversal");
+    sitting.end_with("  blocks:", R"(  blocks:
+    - { name: rotation, kind: perturbed, perturb: rotation, repeats: 20 }
+    - { name: reversal, kind: perturbed, perturb: reversal, repeats: 12 }
+)");
+    session::Plan plan = sitting.plan();
+    Traits traits = median_person(Objects::device);
+    traits.online_correction = 0;
+    sit_down(plan, traits);
+    const Curve curve = reaches(plan);
+    model::TwoRateState x;
+    const auto learns = [](double error, double limit) { return limit * std::tanh(error / limit); };
+    const std::vector<model::AdaptationTrial> trials = schedule(plan);
+    for (size_t i = 0; i < trials.size(); ++i) {
+        EXPECT_NEAR(curve.hand[i], x.output(), 0.6) << i;
+        const double e = adaptation_error(trials[i], x.output());
+        x = {next(traits.rotation().fast, x.fast, learns(e, traits.fast_limit / kDegree)),
+             next(traits.rotation().slow, x.slow, learns(e, traits.slow_limit / kDegree))};
+    }
 }
 
 TEST(Reaches, OverSeveralStatesAreLearnedAsInOne) {
@@ -98,7 +124,7 @@ int rates_given_back(const std::string& id) {
     traits.direction_noise = 4 * kDegree;
     traits.visual_noise = 1e-3;
     traits.extent_noise = 0.04;
-    traits.online_correction = 0;
+    traits.online_correction = traits.fast_limit = traits.slow_limit = 0;
     sit_down(plan, traits);
     const Curve curve = reaches(plan);
     const auto trials = schedule(plan);
