@@ -372,8 +372,10 @@ Node parse_yaml(const std::string& text, const std::string& file, Words words) {
         }
         return builder.take();
     } catch (const YAML::Exception& e) {
-        const auto [word, line] = lone_word_before(text, e.mark.line);
-        if (!word.empty() && e.msg == YAML::ErrorMsg::MAP_VALUE)
+        // if a comment follows the word, YAML complains about the word's own line
+        const bool in_line = e.msg == YAML::ErrorMsg::END_OF_MAP;
+        const auto [word, line] = lone_word_before(text, e.mark.line + (in_line ? 1 : 0));
+        if (!word.empty() && (in_line || e.msg == YAML::ErrorMsg::MAP_VALUE))
             throw Error({file, line + 1}, word, "is a key without a value",
                         fmt::format("Write e.g. {}: 1, with a colon.", word));
         throw Error({file, e.mark.line + 1}, "", "is not YAML: " + e.msg,
