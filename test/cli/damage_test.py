@@ -51,7 +51,7 @@ class Damage(unittest.TestCase):
         refused = dihaptic("recover", self.folder)
         self.assertEqual(refused.returncode, 2)
         self.assertIn(f"session.nwb: error: contains more than the log now yields: {TICKS} ticks", refused.stderr)
-        self.assertIn("Move it away", refused.stderr)
+        self.assertIn("first move it away", refused.stderr)
         self.assertIn(gap, refused.stderr)
         self.assertEqual(was, {name: pathlib.Path(self.folder + name).read_bytes() for name in MADE})
         self.assertIn("state: complete", self.read("session.yaml"))
