@@ -83,8 +83,6 @@ class Calibration(unittest.TestCase):
 
     def test_is_a_population_of_the_program(self):
         file = self.found.save(Path(self.folder.name, "mine.yaml"))
-        text = file.read_text().replace("adults.yaml", str(Path("populations/adults.yaml").absolute()))
-        file.write_text(text)
         self.assertEqual([problem.text() for problem in dh.check(file)], [])
 
     def test_reads_the_table_of_the_program_itself(self):
@@ -133,9 +131,12 @@ class Calibration(unittest.TestCase):
         self.assertEqual(made.returncode, 0, made.stderr)
         self.assertIn("slow_learning", made.stdout)
         self.assertIn("lab0 (24), lab1 (24)", out.read_text())
-        wrong = subprocess.run([*command[:3], "--out", str(out)], capture_output=True, text=True)
-        self.assertEqual(wrong.returncode, 2)
-        self.assertIn("is the only group", wrong.stderr)
+        for words, what in ((command[:3], "is the only group"), ([*command, "--out", str(out)], "exists already")):
+            with self.subTest(what):
+                wrong = subprocess.run(words, capture_output=True, text=True)
+                self.assertEqual(wrong.returncode, 2)
+                self.assertIn(what, wrong.stderr)
+        self.assertIn("lab0 (24), lab1 (24)", out.read_text())
 
 
 class Learner(unittest.TestCase):

@@ -36,9 +36,8 @@ def _text(value: float) -> str:
 class Calibration:
     """Rates of learning over people and laboratories, fitted to groups of people.
 
-    >>> import dihaptic as dh
-    >>> dh.Calibration.table.__doc__.split(",")[0]
-    'For each trait'
+    >>> found = dh.calibrate_population(["ours.csv", "theirs.csv"])  # doctest: +SKIP
+    >>> found.save("mine.yaml")  # doctest: +SKIP
     """
 
     groups: list[Group]
@@ -55,7 +54,7 @@ class Calibration:
         """The text of a population file, which is based on the shipped one."""
         names = ", ".join(f"{group.name} ({group.people})" for group in self.groups)
         lines = [f"# Rates of learning rotations, calibrated to {len(self.groups)} groups: {names}.",
-                 "title: Calibrated adults", "based_on: adults.yaml  # of the program's folder populations", "traits:"]  # fmt: skip
+                 "title: Calibrated adults", "based_on: populations/adults.yaml  # of the program", "traits:"]  # fmt: skip
         for row in self.table.itertuples():
             lines.append(f"  - {{ trait: {row.trait}, law: logit, median: {row.median:.5g}, spread: {_text(row.spread)}, "
                          f"between_laboratories: {_text(row.between_laboratories)}, source: calibrated }}")  # fmt: skip
@@ -117,43 +116,51 @@ def read_group(file: str | os.PathLike[str]) -> Group:
     if table.duplicated(["participant", "trial"]).any():
         raise wrong("has two rows for one trial of a person", "Number the trials of a person from 1 on.")
 
-    def rows_of(values: pd.Series[float] | pd.Series[bool]) -> pd.DataFrame:
-        return table.assign(value=values).pivot(index="participant", columns="trial", values="value")
+    def by_person(column: str) -> Array:
+        try:
+            values = table.assign(value=table[column].astype(float))
+        except ValueError as why:
+            raise wrong(f"has a column that is not numeric: {why}", "Leave values that are missing empty.") from None
+        return np.asarray(values.pivot(index="participant", columns="trial", values="value"), dtype=float)
 
-    try:
-        hand = rows_of(table.compensation_deg.astype(float)).to_numpy(float)
-        rotation = rows_of(table.rotation_deg.astype(float)).fillna(0).to_numpy(float)
-        clamp = rows_of(table.clamp.fillna(0).astype(float) > 0 if "clamp" in table else table.trial < 0)
-    except ValueError as why:
-        raise wrong(f"has a column that is not numeric: {why}", "Leave values that are missing empty.") from None
-    seen = table.feedback != "none" if "feedback" in table else table.error_seen != "no" if "error_seen" in table else table.trial > 0
+    if "clamp" not in table:
+        table["clamp"] = 0
+    table["unseen"] = (table.get("feedback", "") == "none") | (table.get("error_seen", "") == "no")
+    hand = by_person("compensation_deg")
+    rotation = np.nan_to_num(by_person("rotation_deg"))
+    clamp = np.nan_to_num(by_person("clamp")) > 0
+    seen = by_person("unseen") == 0  # NaN, which is a missing trial, is not seen either
     if len(hand) < 2:
         raise wrong("has fewer than two people", "How people differ is part of the fit.")
     hand[np.abs(hand) > _FARTHEST] = np.nan
-    perturbed = np.any((rotation != 0) | clamp.fillna(False).to_numpy(bool), axis=0)
-    if not perturbed.any():
+    group = Group(path.stem, hand, rotation, clamp, seen)
+    if not group.perturbed.any():
         raise wrong("has no rotation", "Give rotation_deg of each trial in degrees.")
-    before = hand[:, : int(np.argmax(perturbed))]
+    before = hand[:, : group.first_perturbed]
     if before.size:
-        hand = hand - np.nan_to_num(np.nanmean(before, 1))[:, None]
-    return Group(path.stem, hand, rotation, clamp.fillna(False).to_numpy(bool), rows_of(seen).fillna(False).to_numpy(bool))
+        group.compensation = hand - np.nan_to_num(np.nanmean(before, 1))[:, None]
+    return group
 
 
-def leave_one_out(groups: list[Group], limits: Limits = LIMITS, laboratories: int = 400, seed: int = 1) -> pd.DataFrame:
+def leave_one_out(
+    groups: list[Group], limits: Limits = LIMITS, laboratories: int = 400, seed: int = 1,
+    progress: Callable[[float], None] = lambda share: None,
+) -> pd.DataFrame:  # fmt: skip
     """Predicts each group from a fit to the others: for every eighth of its trials from the first perturbation on, the mean of
     the group's people (`real`), the median over laboratories (`median`), and the bounds of 50 and 90 % of laboratories
     (`low_50`, `high_50`, `low_90`, `high_90`), all in degrees."""
     out = []
-    for left in groups:
+    for index, left in enumerate(groups):
+        progress(index / len(groups))
         found = hierarchy.fit([group for group in groups if group is not left], limits)
         drawn = _draw(found, left, limits, laboratories, seed)
-        first = int(np.argmax(np.any((left.rotation != 0) | left.clamp, axis=0)))
-        edges = np.linspace(first, left.rotation.shape[1], 9).astype(int)
+        edges = np.linspace(left.first_perturbed, left.rotation.shape[1], 9).astype(int)
         for begin, end in zip(edges[:-1], edges[1:]):
             means = drawn[:, begin:end].mean(1)
             bounds = dict(zip(("low_90", "low_50", "median", "high_50", "high_90"), np.quantile(means, [0.05, 0.25, 0.5, 0.75, 0.95])))
             real = float(np.nanmean(left.compensation[:, begin:end]))
             out.append({"group": left.name, "first_trial": begin + 1, "last_trial": end, "real": real, **bounds})
+    progress(1)
     return pd.DataFrame(out)
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import argparse
 import sys
+from pathlib import Path
 
-from ..errors import Error
-from . import STRUCTURES, calibrate_population, hierarchy, leave_one_out
+from ..errors import Error, error
+from . import LIMITS, STRUCTURES, Calibration, calibrate_population, hierarchy, leave_one_out
 
 
 def _show(share: float) -> None:
@@ -22,13 +23,15 @@ def main(words: list[str]) -> int:
     parser.add_argument("--compare", action="store_true")
     asked = parser.parse_args(words)
     try:
+        if Path(asked.out).exists():
+            raise error("exists already", "Move it away, or name another file with --out.", file=asked.out)
         found = calibrate_population(asked.files, _show)
         for group in found.groups:
             print(f"{group.name}: {group.people} people, {group.rotation.shape[1]} trials")
         print(found.table.to_string(index=False, float_format=lambda value: f"{value:.4g}"))
         print(found.save(asked.out))
         if asked.compare:
-            _compare(found.groups)
+            _compare(found)
     except KeyboardInterrupt:
         print("interrupted: nothing more was written", file=sys.stderr)
         return 130
@@ -38,14 +41,15 @@ def main(words: list[str]) -> int:
     return 0
 
 
-def _compare(groups: list) -> None:  # type: ignore[type-arg]
+def _compare(found: Calibration) -> None:
     """Prints how well other structures fit, and how well each group is predicted by a fit to the others."""
     for name, limits in STRUCTURES.items():
-        print(f"log likelihood, {name}: {hierarchy.fit(groups, limits, _show).likelihood:.1f}", flush=True)
-    if len(groups) < 3:
-        print("each group was not predicted by the others, because this needs three groups")
+        fit = found.fit if limits == LIMITS else hierarchy.fit(found.groups, limits, _show)
+        print(f"log likelihood, {name}: {fit.likelihood:.1f}", flush=True)
+    if len(found.groups) < 3:
+        print("No group was predicted by the others, because this needs three groups.")
         return
-    table = leave_one_out(groups)
+    table = leave_one_out(found.groups, progress=_show)
     print(table.to_string(index=False, float_format=lambda value: f"{value:.1f}"))
     for share in (50, 90):
         inside = ((table.real >= table[f"low_{share}"]) & (table.real <= table[f"high_{share}"])).mean()

@@ -37,6 +37,16 @@ class Group:
         """Number of people."""
         return len(self.compensation)
 
+    @property
+    def perturbed(self) -> NDArray[np.bool_]:
+        """Whether each trial is perturbed for anybody."""
+        return np.asarray(np.any((self.rotation != 0) | self.clamp, axis=0))
+
+    @property
+    def first_perturbed(self) -> int:
+        """Index of the first such trial."""
+        return int(np.argmax(self.perturbed))
+
 
 @dataclass(frozen=True)
 class Limits:
