@@ -6,13 +6,13 @@
 namespace dihaptic::cli {
 namespace {
 
-struct LearnersOptions {
+struct PopulationOptions {
     std::vector<std::string> files;
     std::string out = "population.yaml";
     bool compare = false;
 };
 
-void calibrate_learners(const LearnersOptions& options) {
+void calibrate_population(const PopulationOptions& options) {
     std::vector<std::string> words = options.files;
     words.push_back("--out=" + options.out);
     if (options.compare) words.emplace_back("--compare");
@@ -25,7 +25,7 @@ void add_calibrate_population(CLI::App& app) {
     auto* command =
         app.add_subcommand("calibrate-population",
                            "Fit how simulated people learn rotations to groups of real people");
-    auto options = std::make_shared<LearnersOptions>();
+    auto options = std::make_shared<PopulationOptions>();
     command
         ->add_option("CSV", options->files,
                      "the reaches of one group, i.e. of one laboratory, in each file; two or more")
@@ -48,7 +48,7 @@ void add_calibrate_population(CLI::App& app) {
         "\nExample:\n  dihaptic calibrate-population ours.csv theirs.csv --out mine.yaml\n"
         "  dihaptic rehearse experiments/rotation-reversal.yaml --population mine.yaml --people "
         "40");
-    command->callback([options] { calibrate_learners(*options); });
+    command->callback([options] { calibrate_population(*options); });
 }
 
 }  // namespace dihaptic::cli

@@ -149,22 +149,36 @@ CrowdWork work_of(const RehearseOptions& options) {
 
 /// The command that runs the sessions of all people of this rehearsal, from any folder.
 std::string command_again(const RehearseOptions& options) {
-    return RehearseCommand{
-        options.request.file, options.people,          number_text(options.request.seed),
-        options.out,          options.population_file, options.laboratories,
-        options.real_objects, options.keep_recordings, options.jobs,
-        options.container}
+    return RehearseCommand{.file = options.request.file,
+                           .people = options.people,
+                           .seed = number_text(options.request.seed),
+                           .out = options.out,
+                           .population = options.population_file,
+                           .laboratories = options.laboratories,
+                           .real_objects = options.real_objects,
+                           .keep_recordings = options.keep_recordings,
+                           .jobs = options.jobs,
+                           .container = options.container}
         .text();
 }
 
-/// Fewer than two people do not show how people of one laboratory differ.
+/// The population from which the people are drawn, with as many laboratories as were asked for.
+person::Population population_of(const RehearseOptions& options) {
+    person::Population out = person::population_of(
+        options.population_file,
+        options.real_objects ? person::Objects::real : person::Objects::device);
+    if (options.laboratories > 0) out.laboratories = options.laboratories;
+    return out;
+}
+
+/// One person alone would not show how the people of a laboratory differ.
 void check_laboratories(const RehearseOptions& options) {
     const int laboratories = options.population->laboratories;
     if (laboratories == 0 || options.people >= 2 * laboratories) return;
     throw Error(
         {"--laboratories", 0}, "",
-        fmt::format("are {}, but there are only {}", laboratories,
-                    fmt::format("{} people", options.people)),
+        fmt::format("{} laboratories are too many for {}", laboratories,
+                    options.people == 1 ? "one person" : fmt::format("{} people", options.people)),
         fmt::format("Rehearse at least two people of each: --people {}.", 2 * laboratories));
 }
 
@@ -180,10 +194,7 @@ std::pair<std::string, Asked> prepare(RehearseOptions& options, const Shard& sha
     }
     print(plan.warnings);
     print(person::simulated_limits(*plan.task));
-    options.population = person::population_of(
-        options.population_file,
-        options.real_objects ? person::Objects::real : person::Objects::device);
-    if (options.laboratories > 0) options.population->laboratories = options.laboratories;
+    options.population = population_of(options);
     check_laboratories(options);
     if (options.out.empty()) options.out = usual_folder(options.request);
     session::Rehearsal rehearsal = session::rehearsal_of(plan, write_fields(*options.population));
@@ -268,10 +279,7 @@ bool rehearse_as_study(const RehearseOptions& options, const CLI::App& command) 
     study.jobs = options.jobs;
     study.seed = options.request.seed;
     study.keep_recordings = options.keep_recordings;
-    study.population = person::population_of(
-        options.population_file,
-        options.real_objects ? person::Objects::real : person::Objects::device);
-    if (options.laboratories > 0) study.population.laboratories = options.laboratories;
+    study.population = population_of(options);
     rehearse_study(study);
     return true;
 }

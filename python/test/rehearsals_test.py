@@ -316,7 +316,7 @@ class Sessions(unittest.TestCase):
         self.assertEqual(session.info["state"], "interrupted")
         self.assertEqual(session.trials.trial_num.tolist(), [1, 2, 3])
         self.assertGreater(len(session["grip_force"]), 150)
-        with self.assertRaisesRegex(dh.Error, "moved by Python"):
+        with self.assertRaisesRegex(dh.Error, "names a person written in Python"):
             dh.resume(session)
 
 

@@ -196,7 +196,6 @@ void Person::restart() {
     since_ = wait_until_ = delay_ = 0;
     step_ = 0;
     corrections_ = 0;
-    shows_ = 1;
     reach_ = {};
     moved_at_ = 0;
     velocity_ = off_felt_ = Vec3::Zero();

@@ -94,7 +94,6 @@ class Person final : public task::SeeingDriver {
     const Vec3& felt_where_shown() const noexcept;
     bool shows_earlier_reach() const noexcept;
     bool from_above(const Vec3& displacement) const noexcept;
-    Vec3 expected_turn(const Vec3& d) const noexcept;
     Vec3 made_for(const Vec3& displacement) const noexcept;
     void judge_extent(const Sight& sight) noexcept;
     Vec3 target(const Sight& sight, const task::TaskPlan::Step& step) const noexcept;
@@ -161,7 +160,6 @@ class Person final : public task::SeeingDriver {
     Aim pending_;              // current movement; in a lift, it starts when the object lifts off
     double pending_time_ = 0;  // duration of pending_ [s]
     int corrections_ = 0;
-    double shows_ = 1;     // share of learned rotations that this reach shows
     double missed_ = 0;    // distance from the target before the last correction [m]
     double moved_at_ = 0;  // last time when the hand was felt to move [s]
     Vec3 off_felt_ =
@@ -176,6 +174,7 @@ class Person final : public task::SeeingDriver {
         int number = 0;       // from 1
         size_t state = 0;     // index of the state in which it began
         bool hidden = false;  // whether it began without a cursor
+        double shows = 1;     // share of learned rotations that it shows
         size_t memory = 0;    // index into rotations_, gains_ and forces_
         Vec3 cursor_off = Vec3::Zero();  // jump of the cursor that is not answered yet [m]
         double jumped_at = 0;            // last time without such a jump, or one of the target [s]

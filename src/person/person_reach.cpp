@@ -61,19 +61,14 @@ bool Person::from_above(const Vec3& displacement) const noexcept {
     return places_.size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
 }
 
-/// The rotation by which the person expects the display to turn a reach along the unit vector d, as
-/// far as this reach shows it [rad].
-Vec3 Person::expected_turn(const Vec3& d) const noexcept {
-    return shows_ * rotations_[memory_[static_cast<size_t>(acting_ - 1)]].expected(d);
-}
-
 /// The movement that the hand must make so that the display shows `displacement`, as far as the
-/// person has learned this.
+/// person has learned this and shows it in this reach.
 Vec3 Person::made_for(const Vec3& displacement) const noexcept {
     if (displacement.norm() < 1e-9) return displacement;
     const size_t m = memory_[static_cast<size_t>(acting_ - 1)];
     const Vec3 d = displacement.normalized();
-    return std::exp(-gains_[m].expected(d)) * rotated(-expected_turn(d), displacement);
+    const Vec3 turn = reach_.shows * rotations_[m].expected(d);
+    return std::exp(-gains_[m].expected(d)) * rotated(-turn, displacement);
 }
 
 /// Plans a reach from where the hand is seen to `goal`. Returns the hand's movement.
@@ -86,18 +81,18 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& goal) noexcept {
     // a cursor that appeared later in the reach, the last time that it was hidden at first, will do
     // so again
     const bool unseen = !sight.hand_shown && !appears_[state];
-    shows_ = unseen ? traits_.unseen_share : 1;
-    const Vec3 made = made_for(displacement);
     reach_ = {.going = true,
               .number = reach_.number + 1,
               .state = state,
               .hidden = !sight.hand_shown,
+              .shows = unseen ? traits_.unseen_share : 1,
               .memory = memory_[state],
               .from = hand(sight),
               .felt_from = felt_hand(),
               .way = displacement,
-              .along = made.normalized(),
               .goal = goal};
+    const Vec3 made = made_for(displacement);
+    reach_.along = made.normalized();
     reach_.expects = forces_[reach_.memory].expected(reach_.along);
     reach_.presses = -(1 + traits_.force_noise * presses_.normal()) * reach_.expects;
     reach_.lag = forces_[reach_.memory].lag();

@@ -88,8 +88,6 @@ struct Group {
     }
 };
 
-inline constexpr int kMostLaboratories = 1000;
-
 struct Population {
     std::string title;
     std::string about;     ///< description, for human readers

@@ -18,6 +18,8 @@ constexpr auto enum_names(Objects) {
     return std::array{"real", "device"};
 }
 
+inline constexpr int kMostLaboratories = 1000;
+
 /// README.md explains the effect of each trait. The files in populations/ give medians, spreads and
 /// their sources.
 struct Traits {
@@ -103,7 +105,7 @@ struct Traits {
         v("id", id);
         v("population", population);
         v("group", group);
-        v("laboratory", laboratory, Field::number().within(0, 1000));
+        v("laboratory", laboratory, Field::number().within(0, kMostLaboratories));
         v("objects", objects);
         v("visual_delay", visual_delay, Field::of(Quantity::time).within(0, 1));
         v("visual_noise", visual_noise, Field::length().within(0, 1));

@@ -38,7 +38,7 @@ void sit_down_again(Plan& plan, const recording::SessionFolder& folder) {
     }
     const Node node = read_yaml(file);
     if (node.find("class") != nullptr) {
-        throw Error({file, 0}, "class", "was done by a person written in Python",
+        throw Error({file, 0}, "class", "names a person written in Python",
                     "Run the experiment again with that person: dihaptic.run(person=...).");
     }
     Diagnostics diagnostics;

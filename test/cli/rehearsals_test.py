@@ -179,6 +179,26 @@ groups:
         self.assertEqual(result.returncode, 2)
         self.assertIn("--population requires --simulate", result.stderr)
 
+    def test_people_come_from_laboratories_in_turn(self):
+        out = self.folder + "/out"
+        self.assertEqual(self.rehearse(out, "--laboratories", "2").returncode, 0)
+        self.assertIn("--laboratories 2", pathlib.Path(out, "rehearsal.yaml").read_text())
+        self.assertEqual(dihaptic("collect", out).returncode, 0)
+        people = self.rows(out, "people.csv")
+        self.assertEqual([row["laboratory"] for row in people], ["1", "2"] * 2)
+        # without the option, the same people come from a median laboratory
+        result = self.rehearse(out)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("laboratories: 2 there, 0 now", result.stderr)
+        self.assertEqual(self.rehearse(self.folder + "/median").returncode, 0)
+        self.assertEqual(dihaptic("collect", self.folder + "/median").returncode, 0)
+        for here, median in zip(people, self.rows(self.folder + "/median", "people.csv")):
+            self.assertNotEqual(here["fast_learning"], median["fast_learning"])
+            self.assertEqual(here["tempo"], median["tempo"])
+        result = self.rehearse(self.folder + "/many", "--laboratories", "3")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("3 laboratories are too many for 4 people. Rehearse at least two people of each: --people 6.", result.stderr)
+
     def test_collect_names_who_is_left_out(self):
         out = self.folder + "/out"
         self.assertEqual(self.rehearse(out, "--people", "1").returncode, 0)

@@ -87,7 +87,7 @@ class Looks(Window):
         self.xdotool("windowmove", participant, "1390", "890")
         time.sleep(2)
         self.screenshot("mirror")
-        panel = self.pixels(1022, 240, 374, 610)
+        panel = self.pixels(1022, 260, 374, 590)
         drawn = np.flatnonzero((panel != panel[0, 0]).any(axis=1))  # the picture has the panel's width, and not its height
         mirrored = panel[drawn[0]:drawn[-1] + 1]
         self.assertLess(mirrored.shape[0], 400)

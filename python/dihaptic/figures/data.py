@@ -175,8 +175,9 @@ class Data:
             raise NotThere(name, "is not a table of these sessions", self.tables, "Data.tables lists them.")
         parts = [each.table(name) for each in self.sittings if name in each.session.tables]
         if name in ("adaptation", "fits"):
-            indices = [_is_by_index(each) for each in self.sittings if name in each.session.tables]
-            parts = [_with_shares(part) if of_index else part for part, of_index in zip(parts, indices)]
+            fits = [each.table("fits") if "fits" in each.session.tables else pd.DataFrame() for each in self.sittings
+                    if name in each.session.tables]  # fmt: skip
+            parts = [_with_shares(part) if is_of_index(own) else part for part, own in zip(parts, fits)]
         return _joined(parts)
 
     @property
@@ -315,9 +316,8 @@ class Data:
         return "simulated" if self.is_simulated else ""
 
 
-def _is_by_index(sitting: Sitting) -> bool:
-    """Whether what was learned in a session is an adaptation index."""
-    fits = sitting.table("fits") if "fits" in sitting.session.tables else pd.DataFrame()
+def is_of_index(fits: pd.DataFrame) -> bool:
+    """Whether what was learned, according to these fits, is the adaptation index of force channels."""
     return "measure" in fits and bool((fits["measure"] == "adaptation_index").any())
 
 

@@ -58,6 +58,8 @@ WINDOWS = {
     "clamp_last": "clamp, last", "washout_first": "washout, first",
 }  # fmt: skip
 DIFFERENCES = {"savings": "savings", "rebound": "rebound"}
+#: What was learned, by the column `measure` of fits.csv, where it is not simply compensation.
+LEARNED = {"adaptation_index": "adaptation index", "extent": "compensation of extent"}
 _DASHES: list[Any] = [
     "-", (0, (5, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1.5, 1.5)), (0, (3, 1)), (0, (6, 1.5, 1.5, 1.5, 1.5, 1.5)), "-",
 ]  # fmt: skip
@@ -322,7 +324,7 @@ def _single_catch(points: pd.DataFrame) -> set[float]:
 def _perturbation(axes: Axes, schedule: pd.DataFrame, groups: dict[str, int]) -> bool:
     """Draws the perturbation as a dotted line, in the groups' colours if it differs between groups.
 
-    Returns whether there are any.
+    Returns whether there is one.
     """
     if not (schedule["value"].fillna(0) != 0).any():
         return False
@@ -716,8 +718,7 @@ def _quantity(data: Data, unit: str) -> str:
         return label("compensation", unit)
     fits = data.table("fits")
     names = set(fits[fits["unit"] == unit]["measure"].dropna())
-    words = {"adaptation_index": "adaptation index", "extent": "compensation of extent"}
-    word = words.get(str(next(iter(names))), "compensation") if len(names) == 1 else "compensation"
+    word = LEARNED.get(str(next(iter(names))), "compensation") if len(names) == 1 else "compensation"
     return label(word, unit)
 
 

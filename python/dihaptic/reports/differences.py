@@ -12,7 +12,7 @@ from scipy import special
 
 from ..figures.conditions import averaged_over, axes_of_design, counting_trials, each_in_conditions, measures_of_lifts
 from ..figures.data import Data
-from ..figures.learning import DIFFERENCES, WINDOWS
+from ..figures.learning import DIFFERENCES, LEARNED, WINDOWS
 from ..figures.words import label, level, with_unit, words_of
 from .page import Page, in_short, with_interval, without_empty
 
@@ -198,12 +198,11 @@ def _learned(data: Data, side: str) -> Iterator[_Case]:
     parts = [name for name in ("study_session", "round") if name in fits and name != side]
     words = fits[parts].fillna("").astype(str).agg(lambda row: ", ".join(filter(None, row)), axis=1) if parts else ""
     fits = fits.assign(part=words, side=fits[side].astype(str))
-    names = {"adaptation_index": "adaptation index"}
     for (part, unit, measure), own in fits.groupby(["part", "unit", "measure"], sort=False):
         for window, called in {**WINDOWS, **DIFFERENCES}.items():
             if window in own and own[window].notna().any():
                 each = own[own[window].notna()][["person", "side", window]].rename(columns={window: "value"})
-                yield _Case(f"{names.get(str(measure), 'compensation')}, {called}", str(unit), str(part), each, True)
+                yield _Case(f"{LEARNED.get(str(measure), 'compensation')}, {called}", str(unit), str(part), each, True)
 
 
 def _thresholds(data: Data, side: str) -> Iterator[_Case]:

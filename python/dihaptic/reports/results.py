@@ -9,7 +9,7 @@ import pandas as pd
 
 from ..figures import fitts, psychophysics
 from ..figures.conditions import averaged_over, axes_of_design, counting_trials, each_in_conditions
-from ..figures.data import WINDOW, Data, sitting_columns
+from ..figures.data import WINDOW, Data, is_of_index, sitting_columns
 from ..figures.means import means_with_intervals, within_limits
 from ..figures.words import counted, label, level, with_unit, words_of
 from .differences import differences_in_words
@@ -184,7 +184,7 @@ def _measured(data: Data) -> list[str]:
 
 def is_index(data: Data) -> bool:
     """Whether compensation is the adaptation index of force channels."""
-    return data.has("fits") and "adaptation_index" in set(data.table("fits")["measure"].dropna())
+    return data.has("fits") and is_of_index(data.table("fits"))
 
 
 def _sentence(data: Data, measure: str, by: list[str], table: str) -> str:

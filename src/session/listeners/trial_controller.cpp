@@ -32,8 +32,8 @@ constexpr size_t kLongestLine = 64 * 1024;  // [bytes]
 constexpr size_t kMostMessages = 64;
 constexpr size_t kMostNotes = 10;
 constexpr size_t kLongestReason = 200;  // [bytes]
-constexpr std::chrono::seconds kSilence{
-    5};  // silence after which a message tells the user about the wait
+/// The time without an answer after which a message tells the user about the wait.
+constexpr std::chrono::seconds kSilence{5};
 constexpr std::chrono::seconds kReminder{20};  // after this time, the user is told again
 
 Error refused(const std::string& socket, const std::string& what) {

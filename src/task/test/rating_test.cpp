@@ -248,7 +248,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"scale: numbers, ", "", "scale: is missing"},
         Mistake{"scale: numbers", "scale: number", "is not known"},
         Mistake{"from: 1, ", "", "from: is missing"},
-        Mistake{"to: 9", "to: 1", "must be above 'from', 1"},
+        Mistake{"to: 9", "to: 1", "must be above 'from', which is 1"},
         Mistake{"to: 9", "to: nine", "must be a number"},
         Mistake{"labels: [light, heavy]", "labels: [light, middle, heavy]", "a scale has two ends"},
         Mistake{"scale: numbers,", "scale: likert,", "as many numbers as labels"},
