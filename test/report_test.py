@@ -167,6 +167,7 @@ class Reports(Pages):
         self.assertEqual({r["people"] for r in rows}, {"2"})
         self.assertEqual(len({r["round"] for r in rows}), 4)
 
+    @soak.alone
     def test_a_rehearsal_is_reported_without_its_recordings(self):
         parent = tempfile.TemporaryDirectory()
         self.addCleanup(parent.cleanup)

@@ -234,6 +234,7 @@ class Pools(unittest.TestCase):
         self.assertEqual([len(first.sides[0]), len(again.sides[0])], [10, 11])
         pd.testing.assert_series_equal(first.sides[0], again.sides[0].iloc[:10])
 
+    @soak.alone
     def test_groups_of_a_population_are_compared(self):
         population = Path(self.folder.name, "two.yaml")
         population.write_text(

@@ -20,7 +20,7 @@ from program import PROGRAM, dihaptic, patient
 import soak  # program.py adds its folder to the path
 
 EACH = soak.of(40, 10_000)
-EACH_SESSION = soak.of(30, 2_000)
+EACH_SESSION = soak.of(10, 2_000)
 BATCH = 50
 #: Processor time that reading a file may take [s].
 LONGEST = patient(2)
@@ -156,7 +156,7 @@ class Mutations(Attack):
         for files in (["meshes/pad.obj"], ["meshes/apple.ply"], stl[:1], stl[1:], off):
             with self.subTest(files=files):
                 # the reader of meshes has its own limit of 2 s; a mesh whose header claims millions of faces reaches it
-                self.try_all(files, "mesh-*" + os.path.splitext(files[0])[1], scene.format, longest=patient(4), each=soak.of(15, EACH))
+                self.try_all(files, "mesh-*" + os.path.splitext(files[0])[1], scene.format, longest=patient(4), each=soak.of(10, EACH))
 
     def test_sounds(self):
         """Ogg has a checksum of each page, FLAC of each frame: few files of these can be read."""

@@ -98,7 +98,7 @@ class Words(unittest.TestCase):
     def test_what_gets_in_comes_out(self):
         """A participant of any words: of session.yaml, trials.csv, reports and resumed sessions."""
         chosen = random.Random(2)
-        for n in range(soak.of(6, 60)):
+        for n in range(soak.of(3, 60)):
             word = self.random_word(chosen) + "1"
             with self.subTest(n=n, word=word), tempfile.TemporaryDirectory() as out:
                 result = dihaptic("run", "experiments/first-trials.yaml", "--simulate", f"--participant={word}", "--out", out)
@@ -281,7 +281,7 @@ class Fields(unittest.TestCase):
         chosen = random.Random(int(os.environ.get("DIHAPTIC_SEED", 3)))
         names = sorted({field for form in FILES.values() for field in PLAIN.findall(form)} | {"participant", "age"})
         tried, refused, sessions = 0, 0, 0
-        while tried < soak.of(300, 20_000):
+        while tried < soak.of(150, 20_000):
             texts = {name: any_text(chosen, n) for n, name in enumerate(names)}
             for option in ("participant", "age"):
                 texts[option] = texts[option].replace("\0", "\x01")  # a command line cannot contain NUL

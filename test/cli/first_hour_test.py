@@ -16,6 +16,7 @@ import unittest
 from program import PROGRAM, dihaptic, patient, with_largest_file
 
 import needs  # program.py adds its folder to the path
+import soak
 
 HERE = pathlib.Path(PROGRAM).resolve()
 MADE_FROM = pathlib.Path("app/cli/new_study").resolve()
@@ -311,6 +312,7 @@ class Doctor(FirstHour):
                           "__attribute__((constructor)) static void begin(void) { " + does + " }\n")
         subprocess.run(["cc", "-shared", "-fPIC", "-o", self.folder / name, source], check=True)
 
+    @soak.alone
     def test_goes_on_after_libraries_that_crash_hang_and_chatter(self):
         self.library("libdhd.so.3", "abort();")
         self.library("libHD.so", "for (;;) pause();")

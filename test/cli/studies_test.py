@@ -262,6 +262,7 @@ class Studies(unittest.TestCase):
         collected = dihaptic("collect", self.study, "--rehearsed", self.folder + "/rehearsal").stdout
         self.assertRegex(collected, f"missing: day2 of sim-001, who may not begin it: {why}\nmissing: day3 of sim-001\n")
 
+    @soak.alone
     def test_a_study_is_exported_as_a_whole(self):
         self.write("title: Lifts\nabout: How people lift.\ngroups: [{ name: a, people: 1 }, { name: b, people: 1 }]\n"
                    "facts: [{ name: vision, values: [normal, corrected] }, { name: program }]\n"

@@ -84,6 +84,7 @@ class Compose(Window):
         self.screenshot("saved-as")
         self.quit()
 
+    @soak.alone
     def test_offers_words_and_shows_where_what_is_clicked_was_written(self):
         self.open()
         self.key("ctrl+e", "ctrl+Home")

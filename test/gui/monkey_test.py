@@ -2,7 +2,7 @@
 real devices push and a session runs. The window must neither crash nor hang, its sessions have to be whole, and no force
 may be left.
 
-DIHAPTIC_MONKEY: how long it plays [s], otherwise 20, and 600 in the soak. DIHAPTIC_SEED: what it does, 1 if it is not set.
+DIHAPTIC_MONKEY: how long it plays [s], otherwise 10, and 600 in the soak. DIHAPTIC_SEED: what it does, 1 if it is not set.
 """
 import glob
 import os
@@ -16,7 +16,7 @@ from window import PROGRAM, Window, patient
 from felt import Felt
 import soak
 
-TIME = float(os.environ.get("DIHAPTIC_MONKEY", soak.of(20, 600)))
+TIME = float(os.environ.get("DIHAPTIC_MONKEY", soak.of(10, 600)))
 SEED = int(os.environ.get("DIHAPTIC_SEED", 1))
 
 # Keys, without those that quit the program or remove files in a dialog for choosing a file.

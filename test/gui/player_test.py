@@ -94,6 +94,7 @@ class Player(Window):
         self.assertGreater(np.abs(chart() - before).mean(), 1)
         self.quit()
 
+    @soak.alone
     def test_is_opened_from_the_list_of_sessions(self):
         folder = self.record()
         self.open()

@@ -198,7 +198,7 @@ std::optional<Url> Url::parse(const std::string& text) {
 }
 
 struct Connection::Impl {
-    using Stream = websocket::stream<TimedSocket>;
+    using Stream = websocket::stream<TimedSocket, false>;
 
     net::io_context context;  // Beast's timers need a context, although it is never run
     Stream stream{context};
