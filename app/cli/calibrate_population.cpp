@@ -13,9 +13,10 @@ struct PopulationOptions {
 };
 
 void calibrate_population(const PopulationOptions& options) {
-    std::vector<std::string> words = options.files;
-    words.push_back("--out=" + options.out);
+    std::vector<std::string> words{"--out=" + options.out};
     if (options.compare) words.emplace_back("--compare");
+    words.emplace_back("--");  // files may begin with a hyphen
+    words.insert(words.end(), options.files.begin(), options.files.end());
     run_python(options.files.front(), "population", "dihaptic.calibration.__main__", words);
 }
 

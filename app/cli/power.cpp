@@ -68,7 +68,7 @@ void add_power(CLI::App& app) {
         ->required();
     command
         ->add_option("--n", options->n,
-                     "numbers of people recruited in each group, separated by commas")
+                     "numbers of people recruited in each group, 3 or more, separated by commas")
         ->delimiter(',')
         ->capture_default_str();
     command->add_option("--people", options->people, "number of people in the pool")

@@ -24,7 +24,7 @@ void run_python(const std::string& file, const std::string& result, const std::s
     if (const int failed = python.start(launch); failed != 0)
         throw fault(std::string(": Python cannot be started: ") + std::strerror(failed),
                     "End other programs and try again.");
-    const int status = python.wait().value_or(-1);
+    const int status = app::wait_for_python(python).value_or(-1);
     exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : kFailed;
 }
 

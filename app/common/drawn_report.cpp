@@ -12,6 +12,7 @@
 #include "analysis/report/report_json.h"
 #include "base/child.h"
 #include "base/descriptor.h"
+#include "common/console.h"
 #include "common/package.h"
 
 namespace dihaptic::app {
@@ -66,7 +67,9 @@ void draw_page(const analysis::ReportResult& result, const std::string& command,
     if (failed != 0)
         throw no_page(folder, std::string("Python cannot be started: ") + std::strerror(failed),
                       "End other programs and try again.");
-    if (python.wait() == 0) return;
+    if (wait_for_python(python) == 0) return;
+    if (cli::stop_requested)
+        throw no_page(folder, "it was interrupted", "Run the same command again.");
     const std::string words = says == PythonSays::in_error ? last_words_in(said) : "";
     throw no_page(folder, "Python did not draw it",
                   words.empty() ? "The lines above this one give the reason." : words);

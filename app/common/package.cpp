@@ -1,11 +1,15 @@
 #include "common/package.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "base/installed.h"
+#include "common/console.h"
 
 namespace dihaptic::app {
 
@@ -27,6 +31,17 @@ Launch python_launch(const std::string& folder, const std::string& module) {
              fmt::format("{}", getpid())},
             {Launch::kKept, Launch::kKept, Launch::kKept},
             Launch::kFreshSignals};
+}
+
+std::optional<int> wait_for_python(Child& python) {
+    using namespace std::chrono_literals;
+    constexpr auto kStep = 20ms;
+    for (auto stopping = 0ms; !python.has_ended(); std::this_thread::sleep_for(kStep)) {
+        if (!cli::stop_requested) continue;
+        stopping += kStep;
+        if (stopping == 1s) kill(python.process(), SIGINT);
+    }
+    return python.wait();
 }
 
 }  // namespace dihaptic::app

@@ -44,7 +44,11 @@ def open_nwb(folder: Path) -> h5py.File:
         raise error(f"cannot be read: {why}", "Copy it from the recording computer.", file=str(file))
     with reading(folder):
         opened = h5py.File(file, "r")
-        leads_out = _what_leads_out(opened)
+        try:
+            leads_out = _what_leads_out(opened)
+        except BaseException:
+            opened.close()
+            raise
     if leads_out:
         opened.close()
         raise error(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import warnings
 from collections.abc import Iterator
@@ -127,7 +128,7 @@ class Session:
             self._check_log(head)
             return head
         # raw.log, the largest file, may not have been copied
-        with reading(self.folder):
+        with self._reading():
             return head_of_nwb(self._file) or read_head(log)
 
     def _check_log(self, head: Head) -> None:
@@ -221,7 +222,7 @@ class Session:
     @cached_property
     def t(self) -> Array:
         """Times of all ticks, since activation [s]: one for each row of a quantity of the whole tick."""
-        with reading(self.folder):
+        with self._reading():
             times = self._times(self._series("sequence"))
             if times.ndim != 1 or not (np.diff(times) > 0).all():
                 raise ValueError("its times do not increase")
@@ -233,10 +234,10 @@ class Session:
         It is read from the disk at each request, so keep the result. Raises NotThere.
         """
         if name in vocabulary.lists():
-            with reading(self.folder):
+            with self._reading():
                 return self._list(name)
         series, component = self._find(name)
-        with reading(self.folder):
+        with self._reading():
             data = self._series(series)["data"]
             ticks, components = len(self._series("sequence")["data"]), self._place_of(name).quantity.components
             if data.shape != ((ticks, len(components)) if components else (ticks,)):
@@ -367,12 +368,24 @@ class Session:
         self._tell_changes("session.nwb")
         return opened
 
+    @contextlib.contextmanager
+    def _reading(self) -> Iterator[None]:
+        """Raises Error when what is read from session.nwb in this context is damaged. Closes the file then, since HDF5 would show
+        the same content again as long as it is open, even if it has been restored from a backup."""
+        try:
+            with reading(self.folder):
+                yield
+        except Error:
+            if "_file" in self.__dict__:
+                self.__dict__.pop("_file").close()
+            raise
+
     @property
     def _items(self) -> vocabulary.Items:
         return self._head.items
 
     def _has(self, series: str) -> bool:
-        with reading(self.folder):
+        with self._reading():
             return f"acquisition/{series}" in self._file
 
     def _series(self, name: str) -> Any:

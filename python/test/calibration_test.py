@@ -1,9 +1,11 @@
 """Rates of learning fitted to groups of people: those from which the groups were made are found again."""
 
 import os
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -11,8 +13,9 @@ import numpy as np
 import pandas as pd
 
 import dihaptic as dh
-from dihaptic.calibration import LIMITS, STRUCTURES, leave_one_out
+from dihaptic.calibration import LIMITS, STRUCTURES, _correlations, leave_one_out
 from dihaptic.calibration.learner import Group, Limits, learn, shares
+from dihaptic.calibration.reading import read_group
 
 MEDIAN = np.array([0.3, -0.5, 4.0, -2.0])
 SPREAD = np.array([0.5, 0.6, 0.5, 0.4])
@@ -89,6 +92,7 @@ class Calibration(unittest.TestCase):
         table = pd.read_csv(self.files[0])
         own = table.rename(columns={"participant": "id", "trial": "trial_num", "rotation_deg": "perturbation",
                                     "compensation_deg": "compensation"}).drop(columns=["clamp", "feedback"])  # fmt: skip
+        own["unit"] = "deg"
         own["error_seen"] = np.where(table.clamp == 1, "no", "yes")
         file = Path(self.folder.name, "adaptation.csv")
         own.to_csv(file, index=False)
@@ -103,26 +107,121 @@ class Calibration(unittest.TestCase):
         inside = ((table.real >= table.low_90) & (table.real <= table.high_90)).mean()
         self.assertGreater(inside, 0.6)
 
+    def bad(self, table, **options):
+        file = Path(self.folder.name, "bad.csv")
+        if isinstance(table, bytes):
+            file.write_bytes(table)
+        else:
+            table.to_csv(file, index=False, **options)
+        return file
+
     def test_refuses_what_it_cannot_use(self):
         good = pd.read_csv(self.files[0])
+        angles = ["rotation_deg", "compensation_deg"]
+        learned = good.assign(compensation_deg=good.compensation_deg.where(good.trial <= 20, good.rotation_deg - 1))
+
+        def at(row, **values):
+            table = good.astype(object)
+            for column, value in values.items():
+                table.loc[row, column] = value
+            return table
+
         bad = {
-            "has no column trial": good.drop(columns="trial"),
-            "has two rows for one trial of a person": pd.concat([good, good[:1]]),
-            "has fewer than two people": good[good.participant == "p00"],
-            "has no rotation": good.assign(rotation_deg=0, clamp=0),
-            "has a column that is not numeric": good.assign(rotation_deg="30 degrees"),
-        }
+            "has no column trial. It needs": good.drop(columns="trial"),
+            "26: error: trial: is a second row for this trial of the person: 1": pd.concat([good[:24], good[:1]]),
+            "has fewer than two people with 10 measured reaches": good[good.participant == "p00"],
+            "rotation_deg: has no rotation": good.assign(rotation_deg=0, clamp=0),
+            "2: error: rotation_deg: is not a number: 30 degrees": good.assign(rotation_deg="30 degrees"),
+            "5: error: compensation_deg: is not a number: inf": at(3, compensation_deg=np.inf),
+            "5: error: rotation_deg: is missing. Write 0": at(3, rotation_deg=np.nan),
+            "12: error: trial: is not a number: x": at(10, trial="x"),
+            "12: error: trial: is not a whole number: 3.5": at(10, trial=3.5),
+            "9: error: clamp: is neither 0 nor 1: -1": at(7, clamp=-1),
+            "8: error: clamp: is not a number: no": at(6, clamp="no"),
+            "7: error: feedback: is not known: endpoint. Write none or cursor": at(5, feedback="endpoint"),
+            "4: error: participant: is missing": at(2, participant=""),
+            "as if angles were in radians": good.assign(**np.deg2rad(good[angles] - [0, 3]).clip(-1, 1)),
+            "degrees the wrong way on average. Give compensation_deg the sign of the rotation":
+                learned.assign(rotation_deg=-good.rotation_deg),
+            "reaches beyond 90 degrees. Give angles to the target": good.assign(compensation_deg=-good.compensation_deg % 360),
+            "has rows in %. Leave them out": good.rename(columns={"participant": "id", "compensation_deg": "compensation"}).assign(unit="%"),
+        }  # fmt: skip
         for what, table in bad.items():
-            with self.subTest(what):
-                file = Path(self.folder.name, "bad.csv")
-                table.to_csv(file, index=False)
-                with self.assertRaises(dh.Error) as refused:
-                    dh.calibrate_population([self.files[0], file])
-                self.assertIn(f"bad.csv: error: {what}", refused.exception.problems[0].text())
-        for files, what in (([self.files[0]], "is the only group"), ([self.files[0], "none.csv"], "cannot be read")):
+            with self.subTest(what), self.assertRaises(dh.Error) as refused:
+                dh.calibrate_population([self.files[1], self.bad(table)])
+            self.assertIn(what, refused.exception.problems[0].text())
+            self.assertIn("bad.csv", refused.exception.problems[0].text())
+        with self.assertRaisesRegex(dh.Error, "has columns that are not separated by commas"):
+            dh.calibrate_population([self.files[1], self.bad(good, sep=";")])
+        for content, what in ((b"PK\x03\x04", "has no column participant|is not a table"), (b"", "is not a table: No columns to parse"),
+                              (b"a,b\n1,2,3,4\n\xff\xfe", "is not a table")):
+            with self.subTest(content), self.assertRaisesRegex(dh.Error, what):
+                dh.calibrate_population([self.files[1], self.bad(content)])
+        for files, what in (([self.files[0]], "is the only group"), ([self.files[0], "none.csv"], "cannot be read: No such file"),
+                            ([self.files[0], self.folder.name], "cannot be read: Is a directory"),
+                            ([self.files[0], self.files[1], self.files[0]], "lab0.csv: error: is named twice")):
             with self.subTest(what), self.assertRaises(dh.Error) as refused:
                 dh.calibrate_population(files)
             self.assertIn(what, str(refused.exception))
+
+    def test_reads_what_spreadsheets_write(self):
+        good = pd.read_csv(self.files[0])
+        first = read_group(self.files[0]).group
+        ways = {
+            "a mark, CRLF, words in capitals": good.assign(feedback="Cursor").to_csv(index=False, lineterminator="\r\n").encode("utf-8-sig"),
+            "another order of rows": good.sample(frac=1, random_state=1).to_csv(index=False).encode(),
+            "no column of feedback": good.drop(columns="feedback").to_csv(index=False).encode(),
+        }
+        for what, content in ways.items():
+            with self.subTest(what):
+                again = read_group(self.bad(content)).group
+                np.testing.assert_allclose(again.compensation, first.compensation, atol=1e-12)  # rounded when written
+                np.testing.assert_array_equal(again.seen, first.seen)
+        people = good.assign(participant=good.participant.replace({"p00": "1", "p01": "01", "p02": "NA"}))
+        self.assertEqual(read_group(self.bad(people)).group.people, 24)
+        self.assertTrue((~read_group(self.bad(good.assign(feedback="None"))).group.seen).all())
+
+    def test_names_whom_and_what_it_leaves_out(self):
+        good = pd.read_csv(self.files[0])
+        good.loc[good.participant == "p03", "compensation_deg"] = np.nan
+        stray = pd.DataFrame({"participant": ["p99"], "trial": [1], "rotation_deg": [0]})
+        read = read_group(self.bad(pd.concat([good, stray])))
+        self.assertEqual(read.group.people, 23)
+        self.assertTrue(np.isfinite(np.nanmean(read.group.compensation, 1)).all())
+        self.assertRegex("; ".join(read.left_out), "^1 of 31.. reaches, which went farther than 90 degrees astray; "
+                         "p03, of whom 0 reaches were measured.*; p99, of whom 0 reaches")
+
+    def test_few_groups_give_a_population_with_a_warning(self):
+        for count in (2, 3):
+            with self.subTest(count):
+                found = dh.calibrate_population(self.files[:count])
+                file = found.save(Path(self.folder.name, f"of-{count}.yaml"))
+                self.assertEqual([problem.text() for problem in dh.check(file)], [])
+                self.assertIn(f"# Warning: {count} groups hardly determine how laboratories differ", file.read_text())
+
+    def test_any_correlations_become_those_of_a_population(self):
+        rng = np.random.default_rng(2)
+        for groups in (2, 3, 4, 5, 6):
+            for _ in range(50):
+                medians = rng.normal(size=(groups, 4)) @ rng.normal(size=(4, 4))
+                found = _correlations(np.cov(medians.T))
+                np.linalg.cholesky(found)
+                np.testing.assert_array_equal(found, np.round(found, 2))
+        exact = np.array([[1, 0.5, 0, 0], [0.5, 1, 0, 0], [0, 0, 1, -0.3], [0, 0, -0.3, 1]])
+        np.testing.assert_array_equal(_correlations(exact * 4), exact)
+        self.assertTrue(np.isfinite(_correlations(np.zeros((4, 4)))).all())
+
+    def test_people_who_do_not_learn_are_no_population(self):
+        rng = np.random.default_rng(4)
+        files = []
+        for name in ("still1", "still2"):
+            group = one_group(name, 6, MEDIAN, rng)
+            group.compensation = np.zeros_like(group.compensation)
+            files.append(written(group, self.folder.name))
+        file = Path(self.folder.name, "still.yaml")
+        with self.assertRaisesRegex(dh.Error, "these groups give rates that are none of people: .* Check the signs and units"):
+            dh.calibrate_population(files).save(file)
+        self.assertFalse(file.exists())
 
     def test_is_a_command(self):
         out = Path(self.folder.name, "by-command.yaml")
@@ -131,12 +230,30 @@ class Calibration(unittest.TestCase):
         self.assertEqual(made.returncode, 0, made.stderr)
         self.assertIn("slow_learning", made.stdout)
         self.assertIn("lab0 (24), lab1 (24)", out.read_text())
-        for words, what in ((command[:3], "is the only group"), ([*command, "--out", str(out)], "exists already")):
+        self.assertIn("warning: 2 groups hardly determine", made.stderr)
+        self.assertIn("lab0: left out 1 of 32", made.stderr)
+        for words, what in ((command[:3], "is the only group"), ([*command, "--out", str(out)], "exists already"),
+                            ([*command, "--out", self.folder.name], "--out: is a folder"),
+                            ([*command, "--out", str(out) + "/x.yaml"], "is in a folder that does not exist")):
             with self.subTest(what):
                 wrong = subprocess.run(words, capture_output=True, text=True)
                 self.assertEqual(wrong.returncode, 2)
                 self.assertIn(what, wrong.stderr)
         self.assertIn("lab0 (24), lab1 (24)", out.read_text())
+
+
+    def test_ends_when_it_is_told_to(self):
+        out = Path(self.folder.name, "never.yaml")
+        command = [os.environ.get("DIHAPTIC", "build/release/dihaptic"), "calibrate-population", *map(str, self.files)]
+        for name in ("SIGTERM", "SIGINT"):
+            with self.subTest(name):
+                running = subprocess.Popen([*command, "--out", str(out)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                time.sleep(3)
+                running.send_signal(getattr(signal, name))
+                printed, told = running.communicate(timeout=60)
+                self.assertEqual(running.returncode, 130, printed)
+                self.assertIn("interrupted: nothing more was written", told)
+                self.assertFalse(out.exists())
 
 
 class Learner(unittest.TestCase):

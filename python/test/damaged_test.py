@@ -47,13 +47,17 @@ class Damaged(unittest.TestCase):
         return pathlib.Path(shutil.copytree(self.good.folder, tempfile.mkdtemp(dir=self.folder.name) + "/s", ignore=ignored))
 
     def assert_is_told(self, folder, what):
-        """Returns whether something was said: by a warning, by Error, or by both."""
+        """Returns whether something was said: by a warning, by Error, or by both.
+
+        Warnings of Python itself do not count, such as those of files that nobody has closed.
+        """
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
             try:
                 read = everything(dh.load(folder))
             except dh.Error:
                 return True
+        said = [str(each.message) for each in said if issubclass(each.category, UserWarning)]
         self.assertTrue(said or are_equal(read, self.all), f"{what}: other values, and no word of it")
         return bool(said)
 

@@ -9,6 +9,7 @@ from drawn import Drawn, rehearsed, with_tables
 from scipy import stats
 from small_study import dihaptic
 
+import dihaptic as dh
 from dihaptic import figures
 from dihaptic.figures import learning
 
@@ -45,6 +46,30 @@ class Learning(Drawn):
         table = table.drop_duplicates(["id", "round", "trial_num"], keep="last")
         first = table.groupby(["id", "round"]).trial_num.transform("min")
         return table.assign(trial=table.trial_num - first + 1)
+
+    def test_bands_hold_a_further_laboratory(self):
+        data = figures.read(self.rotation)
+        with self.assertRaisesRegex(dh.Error, "come from 0 laboratories, too few for bands. Rehearse people of 3 or more"):
+            figures.laboratory_curves(data)
+        self.assertNotIn("laboratory-curve", self.check(data))
+        for place, name in enumerate(data.people):  # as if each came from another laboratory
+            file = self.rotation / name / "person.yaml"
+            text = file.read_text()
+            self.addCleanup(file.write_text, text)
+            file.write_text(text.replace("\nlaboratory: 0\n", f"\nlaboratory: {place + 1}\n"))
+        data = figures.read(self.rotation)
+        plan = self.check(data)["laboratory-curve"]
+        self.assertIn("Thin lines are the means of 3 laboratories of 1 people each", plan.caption)
+        points = figures.laboratory_curves(data)
+        own = points[(points.part == "about y") & (points.trial == 10)]
+        values = own[own.of == "laboratory"].value
+        table = self.adaptation()
+        measured = table[(table["round"] == "about y") & (table.trial == 10)].compensation
+        np.testing.assert_allclose(sorted(values), sorted(measured), rtol=1e-12)
+        for share in (0.5, 0.9):
+            band = own[own.of == f"{share:.0%}".replace("%", " %")].iloc[0]
+            half = stats.t.ppf((1 + share) / 2, 2) * values.std() * np.sqrt(1 + 1 / 3)
+            np.testing.assert_allclose([band.low, band.high], [values.mean() - half, values.mean() + half], rtol=1e-12)
 
     def test_curves_are_those_of_pandas(self):
         table = self.adaptation()

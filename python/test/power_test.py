@@ -168,8 +168,11 @@ class Pools(unittest.TestCase):
             ("mean(late) * 1" + 400 * "0", "cannot be part of an effect"),
             ("True * mean(late)", "cannot be part of an effect"),
             ("mean(x, group=a) - mean(x, group=b) - mean(x, group=c)", "names 3 groups"),
+            ("mean(x, block=heavy, block=light)", "has two conditions on block. Write a mean for each"),
+            ("mean(x, block=-'light')", "must be a name"), ("mean(-None)", "must be a name"),
+            (900 * "-" + "mean(x)", "is nested too deeply"), ("mean(x)" + 900 * "+1", "is nested too deeply"),
         ):
-            with self.subTest(text):
+            with self.subTest(text[:60]):
                 self.refused(what, lambda text=text: Effect(text))
         for text, what in (
             ("mean(static_gripN)", "Did you mean 'static_grip_N'"),
@@ -189,7 +192,7 @@ class Pools(unittest.TestCase):
             ({"alpha": 2}, "from 0.000001"), ({"alpha": 1e-300}, "from 0.000001"), ({"ratio": 11}, "from 0.1"),
             ({"seed": -1}, "negative"),
             ({"test": "welch"}, "is not a test of one value of each person"), ({"attrition": 0.9}, "fewer than 3"),
-            ({"n": [30], "attrition": 0.99}, "300 must be recruited"),
+            ({"n": [30], "attrition": 0.99}, "300 must be recruited"), ({"attrition": 0.9999999999}, "from 0 to 0.99"),
         ):  # fmt: skip
             with self.subTest(options):
                 self.refused(what, lambda options=options: dh.power(self.pool, DIFFERENCE, **options))

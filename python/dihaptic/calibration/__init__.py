@@ -6,7 +6,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,18 +16,19 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from ..errors import Error, error
+from ..errors import error
+from ..program import check
 from . import hierarchy
 from .learner import TRAITS, Array, Group, Limits, learn, shares
+from .reading import read_group
 
 __all__ = ["Calibration", "calibrate_population"]
 
 #: Errors above which people learn hardly more, as in populations/adults.yaml, and what a fit is compared with.
 LIMITS = Limits(20, 7)
 STRUCTURES = {"no limits": Limits(), "the slow process limited": Limits(slow=LIMITS.slow), "both processes limited": LIMITS}
-_FARTHEST = 90  # larger angles are reaches to a wrong target [degrees]
-_OWN = {"id": "participant", "trial_num": "trial", "perturbation": "rotation_deg", "compensation": "compensation_deg"}
-_NEEDED = ("participant", "trial", "rotation_deg", "compensation_deg")
+#: Number of groups from which on they say how laboratories differ, as far as groups do.
+ENOUGH_GROUPS = 5
 
 
 def _text(value: float) -> str:
@@ -42,6 +45,15 @@ class Calibration:
 
     groups: list[Group]
     fit: hierarchy.Fit
+    left_out: list[str]  #: sentences about people and reaches that were not used
+
+    @property
+    def warning(self) -> str:
+        """What should be known about a fit to few groups; "" for one to many."""
+        if len(self.groups) >= ENOUGH_GROUPS:
+            return ""
+        return (f"{len(self.groups)} groups hardly determine how laboratories differ: between_laboratories may be far from the truth. "
+                f"Name {ENOUGH_GROUPS} groups or more, or rehearse without --laboratories.")  # fmt: skip
 
     @property
     def table(self) -> pd.DataFrame:
@@ -54,7 +66,7 @@ class Calibration:
         """The text of a population file, which is based on the shipped one."""
         names = ", ".join(f"{group.name} ({group.people})" for group in self.groups)
         lines = [f"# Rates of learning rotations, calibrated to {len(self.groups)} groups: {names}.",
-                 "title: Calibrated adults", "based_on: populations/adults.yaml  # of the program", "traits:"]  # fmt: skip
+                 *([f"# Warning: {self.warning}"] if self.warning else []), "title: Calibrated adults", "based_on: populations/adults.yaml  # of the program", "traits:"]  # fmt: skip
         for row in self.table.itertuples():
             lines.append(f"  - {{ trait: {row.trait}, law: logit, median: {row.median:.5g}, spread: {_text(row.spread)}, "
                          f"between_laboratories: {_text(row.between_laboratories)}, source: calibrated }}")  # fmt: skip
@@ -67,24 +79,45 @@ class Calibration:
         return "\n".join(lines) + "\n"
 
     def save(self, file: str | os.PathLike[str]) -> Path:
-        """Writes the population file. Raises Error if it cannot be written."""
-        path = Path(file)
+        """Writes the population file, which must not exist. Raises Error if it cannot be written, or if the program would refuse
+        it, as it refuses the rates of people who do not learn."""
+        path, text = Path(file), self.population()
+        _check(text)
         try:
-            path.write_text(self.population())
+            with open(path, "x", encoding="utf-8") as out:
+                out.write(text)
+        except FileExistsError:
+            raise error("exists already", "Move it away, or name another file.", file=str(path)) from None
         except OSError as why:
+            with contextlib.suppress(OSError):
+                if path.is_file() and path.read_text(encoding="utf-8") != text:
+                    path.unlink()  # half of it
             raise error(f"cannot be written: {why.strerror}", "Name another file.", file=str(path)) from None
         return path
+
+
+def _check(text: str) -> None:
+    """Raises Error if the program refuses this population."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "population.yaml")
+        file.write_text(text, encoding="utf-8")
+        problems = [problem for problem in check(file) if problem.severity == "error"]
+    if problems:
+        what = f"these groups give rates that are none of people: {problems[0].key}: {problems[0].what}"
+        raise error(what, "Check the signs and units of rotation_deg and compensation_deg, and that people learned.")
 
 
 def calibrate_population(
     files: Sequence[str | os.PathLike[str]], progress: Callable[[float], None] = lambda share: None, limits: Limits = LIMITS
 ) -> Calibration:
     """Fits rates to groups of people, each a CSV file: columns `participant`, `trial`, `rotation_deg`, `compensation_deg` (the
-    hand's angle to the target, positive if it compensates) and, where they differ from trial to trial, `clamp` (1 if the
-    cursor moves at that angle whatever the hand does) and `feedback` (`none` if no cursor was seen). The table adaptation.csv
-    of `dihaptic collect` is read, too.
+    hand's angle to the target, with the sign of the rotation that it cancels) and, where they differ from trial to trial, `clamp` (1 if the
+    cursor moves at that angle whatever the hand does) and `feedback` (`none` if no cursor was seen, or else `cursor`). The table
+    adaptation.csv of `dihaptic collect` is read, too. People with fewer than ten measured reaches after the first rotation, and
+    reaches that went farther than 90 degrees astray, are left out (`left_out`).
 
-    Raises Error for fewer than two groups, for a file without these columns, and for a group without two people.
+    Raises Error for fewer than two groups, for a file that is named twice, for one whose columns, units or signs are wrong, and
+    for a group without two people.
 
     >>> import dihaptic as dh
     >>> dh.calibrate_population(["ours.csv"])
@@ -95,51 +128,14 @@ def calibrate_population(
     if len(files) < 2:
         remedy = "Name two or more: how laboratories differ is part of the fit."
         raise error("is the only group", remedy, file=str(files[0]) if files else "")
-    groups = [read_group(file) for file in files]
-    return Calibration(groups, hierarchy.fit(groups, limits, progress))
-
-
-def read_group(file: str | os.PathLike[str]) -> Group:
-    """The reaches in one file, less each person's mean before the first perturbation."""
-    path = Path(file)
-
-    def wrong(what: str, remedy: str) -> Error:
-        return error(what, remedy, file=str(path))
-
-    try:
-        table = pd.read_csv(path).rename(columns=lambda name: _OWN.get(name, name))
-    except (OSError, ValueError) as why:
-        raise wrong(f"cannot be read: {why}", "Name a CSV file of trials.") from None
-    missing = [name for name in _NEEDED if name not in table.columns]
-    if missing:
-        raise wrong(f"has no column {missing[0]}", f"It needs {', '.join(_NEEDED)}.")
-    if table.duplicated(["participant", "trial"]).any():
-        raise wrong("has two rows for one trial of a person", "Number the trials of a person from 1 on.")
-
-    def by_person(column: str) -> Array:
-        try:
-            values = table.assign(value=table[column].astype(float))
-        except ValueError as why:
-            raise wrong(f"has a column that is not numeric: {why}", "Leave values that are missing empty.") from None
-        return np.asarray(values.pivot(index="participant", columns="trial", values="value"), dtype=float)
-
-    if "clamp" not in table:
-        table["clamp"] = 0
-    table["unseen"] = (table.get("feedback", "") == "none") | (table.get("error_seen", "") == "no")
-    hand = by_person("compensation_deg")
-    rotation = np.nan_to_num(by_person("rotation_deg"))
-    clamp = np.nan_to_num(by_person("clamp")) > 0
-    seen = by_person("unseen") == 0  # NaN, which is a missing trial, is not seen either
-    if len(hand) < 2:
-        raise wrong("has fewer than two people", "How people differ is part of the fit.")
-    hand[np.abs(hand) > _FARTHEST] = np.nan
-    group = Group(path.stem, hand, rotation, clamp, seen)
-    if not group.perturbed.any():
-        raise wrong("has no rotation", "Give rotation_deg of each trial in degrees.")
-    before = hand[:, : group.first_perturbed]
-    if before.size:
-        group.compensation = hand - np.nan_to_num(np.nanmean(before, 1))[:, None]
-    return group
+    places = [os.path.realpath(os.fspath(file)) for file in files]
+    for number, place in enumerate(places):
+        if place in places[:number]:
+            raise error("is named twice", "Name each group once.", file=str(files[number]))
+    read = [read_group(file) for file in files]
+    groups = [each.group for each in read]
+    left_out = [f"{each.group.name}: left out {what}" for each in read for what in each.left_out]
+    return Calibration(groups, hierarchy.fit(groups, limits, progress), left_out)
 
 
 def leave_one_out(
@@ -174,12 +170,22 @@ def _draw(found: hierarchy.Fit, group: Group, limits: Limits, laboratories: int,
     medians = found.median + normal(laboratories, 4) @ np.linalg.cholesky(found.laboratories + 1e-9 * np.eye(4)).T
     people = normal(laboratories, group.people, 4) @ np.linalg.cholesky(found.people).T + medians[:, None]
     count = laboratories * group.people
-    one = Group(group.name, np.empty((count, 0)), *(np.broadcast_to(of[:1], (count, of.shape[1]))
-                                                   for of in (group.rotation, group.clamp, group.seen)))  # fmt: skip
+    trials = (count, group.rotation.shape[1])
+    rotation, clamp = np.broadcast_to(group.rotation[:1], trials), np.broadcast_to(group.clamp[:1], trials)
+    one = Group(group.name, np.empty((count, 0)), rotation, clamp, np.broadcast_to(group.seen[:1], trials))
     curves = learn(people.reshape(-1, 4), np.full(count, float(np.median(found.noise))), one, limits)
     return np.asarray(curves.reshape(laboratories, group.people, -1).mean(1), dtype=float)
 
 
 def _correlations(covariance: Array) -> Array:
-    sd = np.sqrt(np.diag(covariance))
-    return np.asarray(np.clip(covariance / np.outer(sd, sd), -0.99, 0.99), dtype=float)
+    """Correlations with two decimals, as far from 1 as the program demands of a matrix: of few groups, whose covariance is
+    singular, they are drawn toward zero."""
+    sd = np.sqrt(np.maximum(np.diag(covariance), 1e-12))
+    raw = np.clip(covariance / np.outer(sd, sd), -0.99, 0.99)
+    np.fill_diagonal(raw, 1)
+    kept = 1.0
+    while True:
+        rounded = np.round(kept * raw + (1 - kept) * np.eye(len(raw)), 2)
+        if np.linalg.eigvalsh(rounded)[0] > 0.01:
+            return np.asarray(rounded, dtype=float)
+        kept -= 0.01

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
 
@@ -23,13 +24,14 @@ def main(words: list[str]) -> int:
     parser.add_argument("--compare", action="store_true")
     asked = parser.parse_args(words)
     try:
-        if Path(asked.out).exists():
-            raise error("exists already", "Move it away, or name another file with --out.", file=asked.out)
+        _check_place(asked.out)
         found = calibrate_population(asked.files, _show)
         for group in found.groups:
             print(f"{group.name}: {group.people} people, {group.rotation.shape[1]} trials")
+        for what in [*found.left_out, *([found.warning] if found.warning else [])]:
+            print(f"warning: {what}", file=sys.stderr)
         print(found.table.to_string(index=False, float_format=lambda value: f"{value:.4g}"))
-        print(found.save(asked.out))
+        _save(found, asked.out)
         if asked.compare:
             _compare(found)
     except KeyboardInterrupt:
@@ -39,6 +41,27 @@ def main(words: list[str]) -> int:
         print("\n".join(problem.text() for problem in why.problems), file=sys.stderr)
         return 2
     return 0
+
+
+def _check_place(out: str) -> None:
+    """Before minutes of work: raises Error if the file cannot be written."""
+    path = Path(out)
+    if out.endswith("/") or path.is_dir():
+        raise error("is a folder", "Name a file in it, e.g. --out population.yaml.", file=out, key="--out")
+    if os.path.lexists(path):
+        raise error("exists already", "Move it away, or name another file with --out.", file=out)
+    if not path.parent.is_dir():
+        raise error("is in a folder that does not exist", "Make the folder, or name another file with --out.", file=out)
+    if not os.access(path.parent, os.W_OK):
+        raise error("is in a folder that cannot be written", "Name another file with --out.", file=out)
+
+
+def _save(found: Calibration, out: str) -> None:
+    try:
+        print(found.save(out))
+    except Error:
+        print(f"what {out} would contain:\n{found.population()}")
+        raise
 
 
 def _compare(found: Calibration) -> None:

@@ -68,8 +68,8 @@ class _People:
 
     def find(self, spread: Array) -> None:
         """Moves each person's theta toward the most likely one, and estimates its variance and the person's noise."""
-        precision = np.linalg.inv(spread)
-        damping = np.full(self.group.people, 1e-3)
+        precision: Array = np.asarray(np.linalg.inv(spread), dtype=float)
+        damping: Array = np.full(self.group.people, 1e-3)
         residuals = self._residuals(self.theta)
         cost = self._cost(self.theta, residuals, precision)
         for _ in range(4):

@@ -25,10 +25,12 @@ from .drawing import draw
 from .fitts import draw_fitts_law, fitts_law
 from .learning import (
     draw_generalisation,
+    draw_laboratory_curves,
     draw_learning_curve,
     draw_learning_windows,
     draw_measures_over_trials,
     generalisation_curve,
+    laboratory_curves,
     learning_curve,
     learning_windows,
     measures_over_trials,
@@ -71,10 +73,11 @@ from .style import COLOURS, canvas
 __all__ = [
     "COLOURS", "Data", "Measure", "Plan", "Sample", "answers_by_level", "canvas", "channel_forces", "draw",
     "draw_answers", "draw_channel_forces", "draw_conditions", "draw_fitts_law", "draw_generalisation", "draw_grip_against_load",
-    "draw_learning_curve", "draw_learning_windows", "draw_lift_curves", "draw_lift_phases",
+    "draw_laboratory_curves", "draw_learning_curve", "draw_learning_windows", "draw_lift_curves", "draw_lift_phases",
     "draw_measures_over_trials", "draw_procedure_courses", "draw_psychometric_functions", "draw_reach_paths",
     "draw_speed_profiles", "draw_successive_lifts", "draw_thresholds", "draw_timing_and_force",
-    "draw_trial_outcomes", "fitts_law", "generalisation_curve", "grip_against_load", "learning_curve", "learning_windows",
+    "draw_trial_outcomes", "fitts_law", "generalisation_curve", "grip_against_load", "laboratory_curves", "learning_curve",
+    "learning_windows",
     "lift_curves", "lift_phases", "means_by_condition", "measures_over_trials", "procedure_courses",
     "psychometric_functions", "reach_paths", "read", "samples_in", "save", "speed_profiles", "successive_lifts",
     "thresholds_by_procedure", "timing_and_force", "trial_outcomes", "write_analyses", "write_means",

@@ -185,6 +185,11 @@ class Data:
         """Names of the people, in the order of their sessions."""
         return list(dict.fromkeys(sitting.person for sitting in self.sittings))
 
+    @cached_property
+    def laboratories(self) -> dict[str, int]:
+        """The number of each simulated person's laboratory; empty for others, and for people of one median laboratory."""
+        return {sitting.person: sitting.laboratory for sitting in self.sittings if sitting.laboratory > 0}
+
     # The design
 
     @cached_property

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
@@ -12,6 +13,7 @@ from typing import Any, Union
 import pandas as pd
 
 from .._facts import facts
+from .._head import MOST_YAML, why_unreadable
 from ..errors import Error, error
 from ..session import Session
 from ..study import Study
@@ -135,6 +137,15 @@ class Sitting:
     def population(self) -> str:
         """The population of a simulated person; "" for others."""
         return str(self.sample.population or "")
+
+    @cached_property
+    def laboratory(self) -> int:
+        """The number of a simulated person's laboratory; 0 for other people, and for those of one median laboratory."""
+        file = self.session.folder / "person.yaml"
+        if not self.population or why_unreadable(file, MOST_YAML):
+            return 0
+        found = re.search(r"^laboratory: (\d+)$", file.read_text(encoding="utf-8", errors="replace"), re.MULTILINE)
+        return int(found[1]) if found else 0
 
     def table(self, name: str) -> pd.DataFrame:
         """A table of the session, preceded by columns that tell whose it is. Raises Error."""

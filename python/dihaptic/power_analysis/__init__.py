@@ -106,14 +106,14 @@ def power(
 
 def _check(n: Sequence[int], draws: int, alpha: float, ratio: float, attrition: float, seed: int) -> None:
     if not n or any(int(each) != each or not 3 <= each <= _MOST_PEOPLE for each in n):
-        raise error(f"must be whole numbers from 3 to {_MOST_PEOPLE}", "Write e.g. n=[8, 12, 16, 24].", key="n")
+        raise error(f"must be whole numbers from 3 to {_MOST_PEOPLE}", "Write e.g. n=[8, 12, 16, 24], or --n 8,12,16,24.", key="n")
     if not 100 <= draws <= 1_000_000:
         raise error("must be from 100 to a million", "500 samples tell the power within about 0.04.", key="draws")
     if not 1e-6 <= alpha <= 0.5:
         raise error("must be from 0.000001 to 0.5", "0.05 is usual.", key="alpha")
     if not 0.1 <= ratio <= 10:
         raise error("must be from 0.1 to 10", "It is the number of people in the second group for one in the first.", key="ratio")
-    if not 0 <= attrition < 1:
-        raise error("must be a share below 1", "Write e.g. 0.1 for a tenth.", key="attrition")
+    if not 0 <= attrition <= 0.99:
+        raise error("must be a share from 0 to 0.99", "Write e.g. 0.1 for a tenth.", key="attrition")
     if seed < 0:
         raise error("must not be negative", "Write e.g. 1.", key="seed")

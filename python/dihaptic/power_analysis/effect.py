@@ -50,8 +50,11 @@ class Effect:
             self._tree = ast.parse(text.strip(), mode="eval").body
         except (SyntaxError, ValueError, RecursionError):
             raise error("is not an expression", f"{_EXAMPLE} Conditions are equalities.", key=text) from None
-        self._check(self._tree)
-        self.groups = list(dict.fromkeys(self._groups_in(self._tree)))
+        try:
+            self._check(self._tree)
+            self.groups = list(dict.fromkeys(self._groups_in(self._tree)))
+        except RecursionError:
+            raise error("is nested too deeply", "Shorten it.", key=text[:60] + "...") from None
         if not any(isinstance(node, ast.Call) for node in ast.walk(self._tree)):
             raise error("has no term, such as mean(movement_time_s)", _EXAMPLE, key=text)
         if len(self.groups) == 2:
@@ -103,6 +106,10 @@ class Effect:
             _word(node.args[0])
             for word in node.keywords:
                 _word(word.value)
+            names = [str(word.arg) for word in node.keywords]
+            for again in {name for name in names if names.count(name) > 1}:
+                what = f"has two conditions on {again}"
+                raise error(what, "Write a mean for each of its values, and join them with + or -.", key=ast.unparse(node))
         elif not (isinstance(node, ast.Constant) and type(node.value) in (int, float) and abs(node.value) < 1e100):
             raise error("cannot be part of an effect", _EXAMPLE, key=ast.unparse(node))
 
@@ -199,6 +206,7 @@ def _word(node: ast.expr) -> Any:
     if isinstance(node, ast.Constant) and isinstance(node.value, (str, int, float)):
         return node.value
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub) and isinstance(node.operand, ast.Constant):
-        return -node.operand.value
+        if isinstance(node.operand.value, (int, float)):
+            return -node.operand.value
     raise error("must be a name, a number, or a text in quotes", 'Write e.g. block=late or surface="fine sandpaper".',
                 key=ast.unparse(node))  # fmt: skip
