@@ -67,6 +67,9 @@ class Session:
         try:
             os.lstat(file)
         except (FileNotFoundError, NotADirectoryError):
+            if os.path.lexists(self.folder / "rehearsal.yaml"):
+                remedy = "Open it with dihaptic.Rehearsal(folder), or name the folder of one of its people."
+                raise error("is a rehearsal, not a session", remedy, file=str(folder)) from None
             remedy = "Name a folder made by dihaptic."
             raise error("is not a session: it has no session.yaml", remedy, file=str(folder)) from None
         except (OSError, ValueError):

@@ -12,10 +12,13 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-import dihaptic as dh
-from dihaptic.calibration import LIMITS, STRUCTURES, _correlations, leave_one_out
-from dihaptic.calibration.learner import Group, Limits, learn, shares
-from dihaptic.calibration.reading import read_group
+sys.path.insert(0, str(Path(__file__).parents[2] / "test"))
+
+import dihaptic as dh  # noqa: E402
+import soak  # noqa: E402
+from dihaptic.calibration import LIMITS, STRUCTURES, _correlations, leave_one_out  # noqa: E402
+from dihaptic.calibration.learner import Group, Limits, learn, shares  # noqa: E402
+from dihaptic.calibration.reading import read_group  # noqa: E402
 
 MEDIAN = np.array([0.3, -0.5, 4.0, -2.0])
 SPREAD = np.array([0.5, 0.6, 0.5, 0.4])
@@ -79,6 +82,7 @@ class Calibration(unittest.TestCase):
         of_four = np.sqrt(np.diag(self.found.fit.laboratories))
         np.testing.assert_allclose(of_four, self.found.fit.groups.std(0, ddof=1) * np.sqrt(5 / 4) * 2.3534 / 1.6449, rtol=1e-4)
 
+    @soak.alone
     def test_prefers_the_structure_from_which_people_were_made(self):
         likelihood = {name: dh.calibrate_population(self.files[:2], limits=limits).fit.likelihood
                       for name, limits in STRUCTURES.items()}  # fmt: skip
@@ -100,6 +104,7 @@ class Calibration(unittest.TestCase):
         first = dh.calibrate_population(self.files[:2]).fit
         np.testing.assert_allclose(again.median, first.median, atol=1e-9)
 
+    @soak.alone
     def test_says_how_well_a_group_is_predicted_by_the_others(self):
         table = leave_one_out(self.found.groups[:3], laboratories=50)
         self.assertEqual(len(table), 3 * 8)

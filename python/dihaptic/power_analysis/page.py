@@ -77,7 +77,8 @@ def draw_power(points: pd.DataFrame, *, xlabel: str = "people", size: str = "one
     for wanted in points.loc[points["of"] == "wanted", "value"]:
         axes.axhline(wanted, color=QUIET, lw=0.5)
     axes.set(xlabel=xlabel, ylabel="power", ylim=(0, 1.02))
-    axes.legend(loc="lower right", frameon=False)
+    # where the curve leaves room
+    axes.legend(loc="upper left" if lines.loc[lines["n"] == lines["n"].max(), "value"].max() < 0.5 else "lower right", frameon=False)
     return figure
 
 
@@ -220,7 +221,8 @@ def _drivers(result: Power) -> list[str]:
     if not out or result.effect.is_between:
         return []
     return [
-        f"Without {listed(out[:8])}, Cohen's d would change by more than {100 * _MOST_OF_ONE:.0f} %: look at "
+        f"Without {'any one of ' if len(out) > 1 else ''}{listed(out[:8])}, Cohen's d would change by more than "
+        f"{100 * _MOST_OF_ONE:.0f} %: look at "
         "effect-of-people.csv, and at the trials of these people."
     ]
 

@@ -89,7 +89,7 @@ def _result(page: Page, data: Data, told: dict[str, Any]) -> None:
 def _methods(page: Page, data: Data, told: dict[str, Any]) -> None:
     """The methods in words, and the perturbations."""
     page.heading("Methods in words")
-    page.text("A start for a paper's methods; the sentences under Result are one for its results.", "caption")
+    page.text("A start for a paper's methods; for its results, start from the sentences under Result.", "caption")
     for text in methods_of(data, told):
         page.text(text)
     table = perturbations_table(data, told)
