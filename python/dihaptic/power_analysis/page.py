@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from .._facts import version
 from ..errors import error
 from ..figures.saving import is_changed, save, signed, write
-from ..figures.style import COLOURS, QUIET, canvas, drawing
+from ..figures.style import COLOURS, QUIET, canvas, drawing, legend_above
 from ..reports.page import Page
 from ..reports.results import is_index, listed
 from ..reports.simulated import limits_of
@@ -77,8 +77,7 @@ def draw_power(points: pd.DataFrame, *, xlabel: str = "people", size: str = "one
     for wanted in points.loc[points["of"] == "wanted", "value"]:
         axes.axhline(wanted, color=QUIET, lw=0.5)
     axes.set(xlabel=xlabel, ylabel="power", ylim=(0, 1.02))
-    # where the curve leaves room
-    axes.legend(loc="upper left" if lines.loc[lines["n"] == lines["n"].max(), "value"].max() < 0.5 else "lower right", frameon=False)
+    legend_above(figure, *axes.get_legend_handles_labels())
     return figure
 
 
