@@ -1,5 +1,5 @@
 # Read by ctest, for each program of GoogleTest (dihaptic_suites() in rooms.cmake): each of its suites becomes a test
-# ROOM/SUITE. Most cases last for less time than a process takes to start, so a process for each would double the time.
+# ROOM/SUITE. Most cases last for less time than a process takes to start.
 #
 # `room`, `program`, `folder`: the room, its program of tests, and the folder in which that is started. `properties`: of
 # each test.

@@ -109,8 +109,8 @@ def _refuse(rows: pd.Series, table: pd.DataFrame, column: str, what: str, remedy
     """Raises Error about the first of these rows."""
     if rows.any():
         place = int(np.argmax(rows.to_numpy()))
-        raise error(f"{what}: {table[column].iloc[place]}" if "missing" not in what else what, remedy, file=str(path),
-                    line=place + 2, key=column)  # fmt: skip
+        value = str(table[column].iloc[place]).strip()
+        raise error(f"{what}: {value}" if value else what, remedy, file=str(path), line=place + 2, key=column)
 
 
 def _numbers(table: pd.DataFrame, column: str, path: Path) -> pd.Series:

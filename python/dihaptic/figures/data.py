@@ -173,10 +173,10 @@ class Data:
     def _read(self, name: str) -> pd.DataFrame:
         if name not in self.tables:
             raise NotThere(name, "is not a table of these sessions", self.tables, "Data.tables lists them.")
-        parts = [each.table(name) for each in self.sittings if name in each.session.tables]
+        sittings = [each for each in self.sittings if name in each.session.tables]
+        parts = [each.table(name) for each in sittings]
         if name in ("adaptation", "fits"):
-            fits = [each.table("fits") if "fits" in each.session.tables else pd.DataFrame() for each in self.sittings
-                    if name in each.session.tables]  # fmt: skip
+            fits = [each.table("fits") if "fits" in each.session.tables else pd.DataFrame() for each in sittings]
             parts = [_with_shares(part) if is_of_index(own) else part for part, own in zip(parts, fits)]
         return _joined(parts)
 
@@ -187,8 +187,9 @@ class Data:
 
     @cached_property
     def laboratories(self) -> dict[str, int]:
-        """The number of each simulated person's laboratory; empty for others, and for people of one median laboratory."""
-        return {sitting.person: sitting.laboratory for sitting in self.sittings if sitting.laboratory > 0}
+        """The number of the laboratory of each session's simulated person, by the name of the session in tables; without those
+        of other people, and of people of one median laboratory."""
+        return {each.name: each.laboratory for each in self.sittings if each.laboratory > 0}
 
     # The design
 

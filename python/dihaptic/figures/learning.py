@@ -132,7 +132,7 @@ def laboratory_curves(data: Data, *, unit: str = "", rounds: list[str] | None = 
     adaptation.csv or for another round, and Error for fewer than three laboratories.
     """
     table = _adaptation(data, unit, rounds)
-    numbers = table["person"].map(data.laboratories)
+    numbers = table["session"].map(data.laboratories)
     table = table[numbers.notna()].assign(person="laboratory " + numbers.dropna().astype(int).astype(str))
     if table["person"].nunique() < _LEAST_LABORATORIES:
         what = f"come from {counted(table['person'].nunique(), 'laboratory', 'laboratories')}, too few for bands"
@@ -484,7 +484,7 @@ def _plan_of_laboratories(data: Data, table: pd.DataFrame, options: dict[str, An
     curve = _plan_of_curve(data, table, options, unit, name)
     laboratories = len(set(data.laboratories.values()))
     people = table["person"].nunique()
-    each = pd.Series(data.laboratories).value_counts()
+    each = table.groupby(table["session"].map(data.laboratories))["person"].nunique()
     size = f"{each.min()}" if each.min() == each.max() else f"{each.min()} to {each.max()}"
     return replace(
         curve,
