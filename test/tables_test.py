@@ -24,8 +24,7 @@ KEPT = pathlib.Path("test/tables.txt")
 RENEWS = "DIHAPTIC_RENEW_TABLES" in os.environ
 # without trials; with recorded movements; phases and adaptation; lifts; procedures and thresholds; custom measures; a sequence
 # of loads; sounds
-A_FEW = ["lift-block", "reach-to-grasp", "rotation-reversal", "first-trials", "friction-discrimination", "fitts-law",
-         "load-steps", "reach-at-tone"]
+A_FEW = ["lift-block", "rotation-reversal", "first-trials", "friction-discrimination", "load-steps"]
 EVERY = sorted(path.stem for path in pathlib.Path("experiments").glob("*.yaml"))
 #: Files that contain times or the version of the program, besides results.
 NOT_COMPARED = {"session.yaml", "rehearsal.yaml", "report.html", "raw.log"}

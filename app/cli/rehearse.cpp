@@ -177,8 +177,10 @@ void check_laboratories(const RehearseOptions& options) {
     if (laboratories == 0 || options.people >= 2 * laboratories) return;
     throw Error(
         {"--laboratories", 0}, "",
-        fmt::format("{} laboratories are too many for {}", laboratories,
-                    options.people == 1 ? "one person" : fmt::format("{} people", options.people)),
+        fmt::format(
+            "{} too few for {}",
+            options.people == 1 ? "one person is" : fmt::format("{} people are", options.people),
+            laboratories == 1 ? "one laboratory" : fmt::format("{} laboratories", laboratories)),
         fmt::format("Rehearse at least two people of each: --people {}.", 2 * laboratories));
 }
 

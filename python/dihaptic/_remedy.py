@@ -13,6 +13,9 @@ _LIBRARIES = {
     "numpy": "numpy", "pandas": "pandas", "h5py": "h5py", "yaml": "pyyaml", "matplotlib": "matplotlib", "scipy": "scipy",
 }  # fmt: skip
 
+#: The prefix of Debian's own Python.
+_DEBIANS = "/usr"
+
 
 def explain(why: ImportError) -> str:
     """The remedy if the package cannot even read."""
@@ -56,6 +59,9 @@ def needs_program(name: str, why: ImportError | None) -> str:
 
 
 def _how_to_install(library: str) -> str:
-    if list(_FOLDER.glob("_native*.so")):
+    if not list(_FOLDER.glob("_native*.so")):
+        return f"python3 -m pip install {_LIBRARIES[library]}"
+    if sys.prefix == _DEBIANS:
         return f"sudo apt install python3-{library}"
-    return f"python3 -m pip install {_LIBRARIES[library]}"
+    # an environment of venv, conda or pyenv does not see what apt installs
+    return f"this Python, {sys.executable}, lacks it. Use Debian's: /usr/bin/python3"

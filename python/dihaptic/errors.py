@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -64,6 +66,16 @@ def _again(kind: type[Error], problems: list[Problem]) -> Error:
 def error(what: str, remedy: str, *, file: str = "", line: int = 0, key: str = "") -> Error:
     """An Error with one problem."""
     return Error([Problem("error", file, line, key, what, remedy)])
+
+
+def tell(why: Error) -> None:
+    """Prints an error as the program's commands do: a line for each problem."""
+    print("\n".join(problem.text() for problem in why.problems), file=sys.stderr)
+
+
+def shorten_warnings() -> None:
+    """From now on, a warning is printed as the program's commands print it: without the line of Python that gave it."""
+    warnings.formatwarning = lambda message, *_: f"{message}\n"
 
 
 class NotThere(Error, KeyError):

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import venv
 
 sys.path.append("test")
 import needs  # noqa: E402
@@ -70,6 +71,15 @@ class Imports(unittest.TestCase):
                 code, said = python(f"import sys; sys.modules['{name}'] = None; import dihaptic", PACKAGE)
                 self.assertEqual(code, 1)
                 self.assertEqual(self.last_line(said), f"ImportError: dihaptic needs {name}: sudo apt install python3-{name}.")
+
+    def test_in_an_environment_that_does_not_see_debians_libraries(self):
+        with tempfile.TemporaryDirectory() as folder:
+            venv.create(folder)
+            interpreter = f"{folder}/bin/python3"
+            code, said = python("import dihaptic", PACKAGE, interpreter=interpreter)
+        self.assertEqual(code, 1)
+        what = f"dihaptic needs numpy: this Python, {interpreter}, lacks it. Use Debian's: /usr/bin/python3."
+        self.assertEqual(self.last_line(said), f"ImportError: {what}")
 
     def test_figures_without_a_library(self):
         for name in ("matplotlib", "scipy"):

@@ -25,7 +25,7 @@ from program import PROGRAM, dihaptic, patient
 import soak  # program.py adds its folder to the path
 
 PROGRAM = os.path.abspath(PROGRAM)
-SAMPLE = 6
+SAMPLE = 4
 TRAPS = ["link to a file", "link to a folder", "link to nothing", "link to itself", "second name of a file", "pipe",
          "folder", "link to a device"]
 

@@ -93,9 +93,8 @@ class Damage(unittest.TestCase):
         inputs = ["scene.yaml", "rig.yaml", "settings.yaml", "mesh-1-block.obj"]
         for name in names:
             size = len(whole[name])
-            lengths = soak.of({random.choice([0, random.randrange(size)])},
-                              {0, 1, size - 1, *range(100, min(size, 151), 10), *(random.randrange(size) for _ in range(9))})
-            for length in [None, *sorted(lengths)]:
+            everywhere = {0, 1, size - 1, *range(100, min(size, 151), 10), *(random.randrange(size) for _ in range(9))}
+            for length in soak.of([random.choice([None, 0, random.randrange(size)])], [None, *sorted(everywhere)]):
                 for other, data in whole.items():
                     pathlib.Path(self.folder + other).write_bytes(data)
                 pathlib.Path(self.folder + name).unlink() if length is None else os.truncate(self.folder + name, length)

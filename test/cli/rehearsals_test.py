@@ -197,7 +197,7 @@ groups:
             self.assertEqual(here["tempo"], median["tempo"])
         result = self.rehearse(self.folder + "/many", "--laboratories", "3")
         self.assertEqual(result.returncode, 2)
-        self.assertIn("3 laboratories are too many for 4 people. Rehearse at least two people of each: --people 6.", result.stderr)
+        self.assertIn("4 people are too few for 3 laboratories. Rehearse at least two people of each: --people 6.", result.stderr)
 
     def test_collect_names_who_is_left_out(self):
         out = self.folder + "/out"

@@ -16,7 +16,7 @@ import unittest
 from program import dihaptic
 import soak  # program.py adds its folder to the path
 
-MISCHIEFS = soak.of(30, 200)
+MISCHIEFS = soak.of(16, 200)
 PEOPLE = ["sim-001", "sim-002", "sim-003"]
 #: Files of a session that report reads.
 READ = ["trials.csv"]

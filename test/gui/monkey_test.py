@@ -16,7 +16,7 @@ from window import PROGRAM, Window, patient
 from felt import Felt
 import soak
 
-TIME = float(os.environ.get("DIHAPTIC_MONKEY", soak.of(10, 600)))
+TIME = float(os.environ.get("DIHAPTIC_MONKEY", soak.of(5, 600)))
 SEED = int(os.environ.get("DIHAPTIC_SEED", 1))
 
 # Keys, without those that quit the program or remove files in a dialog for choosing a file.

@@ -7,7 +7,7 @@ import os
 import sys
 from pathlib import Path
 
-from ..errors import Error, error
+from ..errors import Error, error, tell
 from . import LIMITS, STRUCTURES, Calibration, calibrate_population, hierarchy, leave_one_out
 
 
@@ -38,7 +38,7 @@ def main(words: list[str]) -> int:
         print("interrupted: nothing more was written", file=sys.stderr)
         return 130
     except Error as why:
-        print("\n".join(problem.text() for problem in why.problems), file=sys.stderr)
+        tell(why)
         return 2
     return 0
 
@@ -59,8 +59,9 @@ def _check_place(out: str) -> None:
 def _save(found: Calibration, out: str) -> None:
     try:
         print(found.save(out))
-    except Error:
-        print(f"what {out} would contain:\n{found.population()}")
+    except Error as why:
+        if why.problems[0].file:  # the place is at fault, not the rates
+            print(f"what {out} would contain:\n{found.population()}")
         raise
 
 

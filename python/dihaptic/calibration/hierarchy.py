@@ -73,10 +73,8 @@ class _People:
         residuals = self._residuals(self.theta)
         cost = self._cost(self.theta, residuals, precision)
         for _ in range(4):
-            slope = np.empty((*residuals.shape, 4))
-            for k in range(4):
-                slope[..., k] = (self._residuals(self.theta + _STEP * np.eye(4)[k]) - residuals) / -_STEP
-            slope = np.nan_to_num(slope)
+            beside = self._residuals(self.theta + _STEP * np.eye(4)[:, None])
+            slope = np.moveaxis(np.nan_to_num((beside - residuals) / -_STEP), 0, -1)
             weight = 1 / self.noise**2
             curvature = np.einsum("n,ntk,ntl->nkl", weight, slope, slope) + precision
             pull = np.einsum("n,ntk,nt->nk", weight, slope, np.nan_to_num(residuals)) - (self.theta - self.median) @ precision

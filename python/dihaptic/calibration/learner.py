@@ -61,22 +61,22 @@ def shares(logits: Array) -> Array:
     return np.asarray(1 / (1 + np.exp(-np.clip(logits, -40, 40))), dtype=float)
 
 
-def _limited(error: Array, limit: float, noise: Array) -> Array:
-    if np.isinf(limit):
-        return error
-    return np.asarray(limit * np.tanh(error / np.sqrt(limit**2 + np.pi / 2 * noise**2)), dtype=float)
+def _limited(error: Array, limit: float, weakened: Array) -> Array:
+    return error if np.isinf(limit) else np.asarray(limit * np.tanh(error / weakened), dtype=float)
 
 
 def learn(logits: Array, noise: Array, group: Group, limits: Limits) -> Array:
-    """The compensation in each trial [degrees], without noise of its own: a row for each row of `logits`. `noise`: the
-    standard deviation of each person's reaches [degrees]."""
-    keeps_fast, learns_fast, keeps_slow, learns_slow = shares(logits).T
-    fast = slow = np.zeros(len(logits))
-    out = np.empty((len(logits), group.rotation.shape[1]))
-    for n in range(out.shape[1]):
-        out[:, n] = fast + slow
-        error = np.where(group.clamp[:, n], group.rotation[:, n], group.rotation[:, n] - out[:, n])
-        error = np.where(group.seen[:, n], error, 0)
-        fast = keeps_fast * fast + learns_fast * _limited(error, limits.fast, noise)
-        slow = keeps_slow * slow + learns_slow * _limited(error, limits.slow, noise)
-    return out
+    """The compensation in each trial [degrees], without noise of its own: (..., people, trials) for `logits` of
+    (..., people, 4). `noise`: the standard deviation of each person's reaches [degrees]."""
+    keeps_fast, learns_fast, keeps_slow, learns_slow = np.moveaxis(shares(logits), -1, 0)
+    weakened_fast, weakened_slow = (np.sqrt(limit**2 + np.pi / 2 * noise**2) for limit in (limits.fast, limits.slow))
+    # a row for each trial, since these loops take most of a calibration's time
+    shown, moved = (group.rotation * group.seen).T, (group.seen & ~group.clamp).T.astype(float)
+    fast = slow = np.zeros(logits.shape[:-1])
+    out = np.empty((group.rotation.shape[1], *fast.shape))
+    for n in range(len(out)):
+        out[n] = fast + slow
+        error = shown[n] - moved[n] * out[n]
+        fast = keeps_fast * fast + learns_fast * _limited(error, limits.fast, weakened_fast)
+        slow = keeps_slow * slow + learns_slow * _limited(error, limits.slow, weakened_slow)
+    return np.moveaxis(out, 0, -1)

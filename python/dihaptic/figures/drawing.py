@@ -13,7 +13,7 @@ from multiprocessing import get_all_start_methods, get_context
 from pathlib import Path
 
 from .._parent import end_with
-from ..errors import Error
+from ..errors import Error, shorten_warnings, tell
 from . import conditions, fitts, learning, lifts, paths, psychophysics, quality
 from .data import Data, read
 from .people import write_means
@@ -117,11 +117,11 @@ def main(words: list[str]) -> int:
             "Example:\n  python3 -m dihaptic.figures rehearsals/grip-and-lift_1"
         )
         return 0 if words and words[0] in ("-h", "--help") else 2
-    warnings.formatwarning = lambda message, *_: f"{message}\n"  # a short message, for the command line
+    shorten_warnings()
     try:
         scripts = draw(*words, progress=lambda title: print(title, file=sys.stderr))
     except Error as why:
-        print("\n".join(problem.text() for problem in why.problems), file=sys.stderr)
+        tell(why)
         return 1
     if not scripts:
         print(f"{words[0]}: its experiment has nothing that a figure shows", file=sys.stderr)

@@ -33,8 +33,13 @@ _R_WORDS = {
 #: Names that have a meaning of their own in patsy.
 _PATSY_WORDS = {"C", "Q", "I", "T", "center", "standardize", "Treatment", "Sum", "Diff", "Poly", "Helmert"}
 _WIDTH = 118
+#: Between the terms of a model in R.
+_R_LINE = ",\n                 "
 #: Maximum number of parameters of an interaction.
 _MOST_OF_PAIR = 12
+#: Trials that each person's own effect needs, so that it can be told from the scatter of trials: for each level of words, and
+#: for a slope over numbers.
+_FEWEST_OF_LEVEL, _FEWEST_OF_SLOPE = 1.5, 3
 
 
 def write_analyses(data: Data, folder: str | Path) -> list[Path]:
@@ -42,11 +47,13 @@ def write_analyses(data: Data, folder: str | Path) -> list[Path]:
     changed is left as it is, with a warning.
 
     Each is self-contained: it reads the tables that are written beside it (`analysis-trials.csv`, ...), fits a mixed
-    model (REML) of each measure, and prints estimates with 95 % intervals (Wald), the numbers of people and of trials.
-    Fixed effects are the factors of the design, with numbers centred and words compared with the first one; each person has
-    an intercept of their own. A second model adds the interaction of every two factors that the design crosses. For
-    learning, the measure is the late compensation, by group and by round. Returns [] for one person, or for a design without
-    factors.
+    model (REML) of each measure, and prints estimates with 95 % intervals, the numbers of people and of trials.
+    Fixed effects are the factors of the design, with numbers centred and words compared with the first one. Each person has
+    an intercept of their own and, of each factor that varies within people, an effect of their own, all independent of each
+    other; without these, intervals are too narrow (Barr et al. 2013, doi:10.1016/j.jml.2012.11.001). Intervals use Student's t,
+    with as many degrees of freedom as there are people less the parameters that differ between people. A second model adds
+    the interaction of every two factors that the design crosses. For learning, the measure is the late compensation, by group
+    and by round. Returns [] for one person, or for a design without factors.
 
     >>> from dihaptic import figures
     >>> figures.write_analyses(figures.read(lift_session), folder)
@@ -82,7 +89,10 @@ class _Design:
     tables: list[str]
     models: dict[str, list[str]]  #: a measure's factors
     pairs: dict[str, list[tuple[str, str]]] = field(default_factory=dict)  #: pairs of these whose interaction can be estimated
+    own: dict[str, list[tuple[str, ...]]] = field(default_factory=dict)  #: factors, and pairs, whose effects each person has
+    between: dict[str, list[int]] = field(default_factory=dict)  #: numbers of each model's parameters that differ between people
     numbers: dict[str, str] = field(default_factory=dict)  #: a numeric factor's unit
+    sizes: dict[str, str] = field(default_factory=dict)  #: a numeric factor's standard deviation
     words: dict[str, list[str]] = field(default_factory=dict)  #: levels in order
     of_lifts: list[str] = field(default_factory=list)  #: measures from lifts.csv
     late: dict[str, str] = field(default_factory=dict)  #: the block of each round that shows its late compensation
@@ -107,10 +117,7 @@ def _of_attempts(data: Data) -> _Design | None:
     factors = data.factors or (["condition"] if trials["condition"].nunique() > 1 else [])
     _name_factors(data, trials, [*factors, "group", *_OF_STUDY], design)
     for measure in [*own, *design.of_lifts]:
-        effects = _effects(trials, measure, design)
-        if effects:
-            design.models[measure] = effects
-            design.pairs[measure] = _pairs(trials, measure, effects, design)
+        _add_model(trials, measure, design)
     return design if design.models else None
 
 
@@ -128,12 +135,33 @@ def _of_learning(data: Data) -> _Design | None:
     table = table[(table["block"] == table["round"].map(late)) & ~table["kind"].isin(_PROBES)]
     table = table[table["compensation"].notna()].groupby(["person", *_sitting(table), "round"], sort=False).tail(WINDOW)
     _name_factors(data, table, ["group", "round", *_OF_STUDY], design)
-    effects = _effects(table, "compensation", design)
+    _add_model(table, "compensation", design)
+    return design if design.models else None
+
+
+def _add_model(rows: pd.DataFrame, measure: str, design: _Design) -> None:
+    """Adds the model of a measure, unless its trials cannot separate any effect."""
+    effects = _effects(rows, measure, design)
     if not effects:
-        return None
-    design.models = {"compensation": effects}
-    design.pairs = {"compensation": _pairs(table, "compensation", effects, design)}
-    return design
+        return
+    design.models[measure] = effects
+    design.pairs[measure] = pairs = _pairs(rows, measure, effects, design)
+    known = rows[rows[measure].notna()].dropna(subset=effects)
+    levels = known.groupby("person")[effects].nunique()
+    within = [name for name in effects if (levels[name] > 1).mean() >= 0.5]
+    of_one = [(name,) for name in within]
+    both = [pair for pair in pairs if set(pair) <= set(within)]
+    design.own[measure] = [names for names in [*of_one, *both] if _is_known_of_each(known, names, design)]
+    between = [name for name in effects if name not in within]
+    of_people = [pair for pair in pairs if set(pair) <= set(between)]
+    design.between[measure] = [_parameters(known, between, [], design), _parameters(known, between, of_people, design)]
+
+
+def _is_known_of_each(rows: pd.DataFrame, names: tuple[str, ...], design: _Design) -> bool:
+    """Whether there are enough trials for an effect of each person's own."""
+    words = [name for name in names if name in design.words]
+    cells = rows.groupby(["person", *words], observed=True).size()
+    return bool(cells.mean() >= (_FEWEST_OF_LEVEL if len(words) == len(names) else _FEWEST_OF_SLOPE))
 
 
 def _late_blocks(table: pd.DataFrame, fits: pd.DataFrame) -> dict[str, str]:
@@ -163,6 +191,7 @@ def _name_factors(data: Data, rows: pd.DataFrame, names: list[str], design: _Des
             continue
         if pd.api.types.is_numeric_dtype(rows[name]):
             design.numbers[name] = str(units.get(name, "")) or "unit"
+            design.sizes[name] = f"{rows[name].std():.3g}"
         else:
             known = data.levels(name) if name in data.table("trials") else list(rows[name].unique())
             levels = [str(value) for value in known if (rows[name] == value).any() and str(value)]
@@ -237,7 +266,7 @@ def _about(data: Data, design: _Design) -> list[str]:
     what = label("late compensation", design.unit) if design.late else "measures over attempts"
     return [
         f"Mixed models of {' '.join(data.title.split()) or 'an experiment'}: {what}, by the factors of the design.",
-        "Each person has an intercept. Intervals are Wald's, and with few people too narrow.",
+        "Each person has an intercept, and effects of their own of what varies within people. Intervals are by Student's t.",
     ]
 
 
@@ -261,20 +290,43 @@ def _formula_name(name: str, language: str) -> str:
     return name if plain and not keyword.iskeyword(name) and name not in _PATSY_WORDS else f"Q({name!r})"
 
 
-def _formulas(design: _Design, measure: str, language: str) -> list[str]:
-    """The formula of a measure's factors, and one that also has their interactions, if these can be estimated."""
+@dataclass
+class _Model:
+    """A model in a script's language."""
+
+    effects: str  #: the formula of its fixed effects
+    own: list[str]  #: the terms of a person's own effects
+    between: int  #: number of parameters that differ between people
+
+
+def _models(design: _Design, measure: str, language: str) -> list[_Model]:
+    """The model of a measure's factors, and one that also has their interactions, if these can be estimated."""
     names = {name: _formula_name(name, language) for name in design.models[measure]}
-    factors = " + ".join(names.values())
-    pairs = [f"{names[first]}:{names[second]}" for first, second in design.pairs.get(measure, [])]
-    return [factors, *([" + ".join([factors, *pairs])] if pairs else [])]
+    pairs = design.pairs[measure]
+    out = []
+    none: list[tuple[str, str]] = []
+    for chosen, between in zip([none, pairs] if pairs else [none], design.between[measure]):
+        effects = " + ".join([*names.values(), *(":".join(names[name] for name in pair) for pair in chosen)])
+        own = [_own_effect(each, names, design, language) for each in design.own[measure] if len(each) == 1 or chosen]
+        out.append(_Model(effects, own, between))
+    return out
 
 
-def _laid_out(head: str, items: list[str], tail: str) -> str:
+def _own_effect(factors: tuple[str, ...], names: dict[str, str], design: _Design, language: str) -> str:
+    """The term of a person's own effect: of each level of words, and of numbers in units of their standard deviation."""
+    words = [names[name] for name in factors if name in design.words]
+    numbers = [f"I({names[name]} / {design.sizes[name]})" for name in factors if name in design.numbers]
+    if language == "Python":
+        return ":".join([*words, *numbers])
+    return f"({'0 + ' + ':'.join(numbers) if numbers else '1'} | {':'.join(['person', *words])})"
+
+
+def _laid_out(head: str, items: list[str], tail: str, indent: str = "    ") -> str:
     """A list on one line if it fits there, and otherwise with an item on each line."""
     line = f"{head}{', '.join(items)}{tail}"
     if len(line) <= _WIDTH:
         return line
-    return head + ",".join(f"\n    {item}" for item in items) + "\n" + tail
+    return head + ",".join(f"\n{indent}{item}" for item in items) + "\n" + indent[4:] + tail
 
 
 def _text(value: Any) -> str:
@@ -303,7 +355,10 @@ def _python(data: Data, design: _Design) -> str:
     about = "\n".join(line.replace("\\", "/").replace('"', "'") for line in _about(data, design))
     words = _laid_out("WORDS = {", [f"{_text(name)}: [{_items(levels)}]" for name, levels in design.words.items()], "}")
     numbers = _laid_out("NUMBERS = {", [f"{_text(name)}: {_text(unit)}" for name, unit in design.numbers.items()], "}")
-    models = "".join(f"    {_text(name)}: [{_items(_formulas(design, name, 'Python'))}],\n" for name in design.models)
+    models = ""
+    for name in design.models:
+        each = [_python_model(model) for model in _models(design, name, "Python")]
+        models += _laid_out(f"    {_text(name)}: [", each, "],", "        ") + "\n"
     rows = _python_late(design, sitting) if design.late else _python_attempts(design, sitting)
     return f'''"""{about}
 Run with python3 analysis.py; it needs the Debian package python3-statsmodels. analysis.R fits the same models.
@@ -313,9 +368,11 @@ from pathlib import Path
 
 import pandas as pd
 import statsmodels.formula.api as smf
+from patsy import dmatrix
+from scipy.stats import t
 
 {_comment(_notes(design))}
-# Where people differ in an effect of their own trials, add re_formula="~ FACTOR" to mixedlm().
+# Of each model: the formula, the effects of a person's own, and the number of parameters that differ between people.
 {numbers}
 {words}
 MODELS = {{
@@ -328,7 +385,7 @@ def read(name):
 
 
 {rows}
-for measure, effects in ((measure, effects) for measure, each in MODELS.items() for effects in each):
+for measure, (effects, own, between) in ((measure, of) for measure, each in MODELS.items() for of in each):
     known = rows[rows[measure].notna()].copy()
     scale = known[measure].std()  # the fit converges best where numbers are about 1
     known[measure] /= scale
@@ -339,17 +396,26 @@ for measure, effects in ((measure, effects) for measure, each in MODELS.items() 
         present = [level for level in levels if level in set(known[name])]
         known[name] = pd.Categorical(known[name], present)
         names.update({{f"{{name}}[T.{{level}}]": f"{{name}}: {{level}} - {{present[0]}}" for level in present[1:]}})
-    fit = smf.mixedlm(f"{{measure}} ~ {{effects}}", known, groups="person", missing="drop").fit(reml=True, method="powell")
-    half = 1.96 * fit.bse_fe
+    known = known.loc[dmatrix(effects, known, return_type="dataframe").index]  # rows that have all of these factors
+    of_person = {{term: f"0 + {{term}}" for term in own}}
+    model = smf.mixedlm(f"{{measure}} ~ {{effects}}", known, groups="person", re_formula="1", vc_formula=of_person)
+    fit = model.fit(reml=True, method="powell")
+    half = t.ppf(0.975, max(1, model.n_groups - between)) * fit.bse_fe
     table = scale * pd.DataFrame({{"estimate": fit.fe_params, "low": fit.fe_params - half, "high": fit.fe_params + half}})
     what = "estimates"
-    if effects != MODELS[measure][0]:
+    if effects != MODELS[measure][0][0]:
         what, table = "interactions", table.drop(index=["Intercept", *(name for name in names if name in table.index)])
-    print(f"\\n{{measure}}: {{fit.model.n_groups}} people, {{int(fit.nobs)}} trials; standard deviation between people")
+    print(f"\\n{{measure}}: {{model.n_groups}} people, {{int(fit.nobs)}} trials; standard deviation between people")
     print(f"{{scale * fit.cov_re.iloc[0, 0] ** 0.5:.6g}}, within {{scale * fit.scale ** 0.5:.6g}}; {{what}} and 95 % intervals:")
     table.index = [names.get(row) or " x ".join(names.get(part, part) for part in row.split(":")) for row in table.index]
     print(table.to_string(float_format="{{:.6g}}".format))
 '''
+
+
+def _python_model(model: _Model) -> str:
+    formula, own = _text(model.effects), f"[{_items(model.own)}], {model.between}"
+    line = f"({formula}, {own})"
+    return line if len(line) < _WIDTH - 10 else f"({formula},\n         {own})"
 
 
 def _python_attempts(design: _Design, sitting: list[str]) -> str:
@@ -385,7 +451,9 @@ def _r(data: Data, design: _Design) -> str:
     sitting = _sitting(data.table(design.tables[0]))
     numbers = _laid_out("numbers <- c(", [f"`{name}` = {_text(unit)}" for name, unit in design.numbers.items()], ")")
     words = _laid_out("words <- list(", [f"`{name}` = {_vector(levels)}" for name, levels in design.words.items()], ")")
-    models = ",\n".join(f"  `{name}` = {_vector(_formulas(design, name, 'R'))}" for name in design.models)
+    models = ",\n".join(
+        _laid_out(f"  `{name}` = list(", [_r_model(model) for model in _models(design, name, "R")], ")") for name in design.models
+    )
     rows = _r_late(design, sitting) if design.late else _r_attempts(design, sitting)
     return f"""{_comment(_about(data, design))}
 # Run with Rscript analysis.R; it needs the Debian package r-cran-lme4. analysis.py fits the same models.
@@ -395,7 +463,7 @@ script <- sub("^--file=", "", grep("^--file=", commandArgs(), value = TRUE))
 if (length(script) == 1) setwd(dirname(gsub("~+~", " ", script, fixed = TRUE)))
 
 {_comment(_notes(design))}
-# Where people differ in an effect of their own trials, write (1 + FACTOR | person) below.
+# Of each model: the formula, the effects of a person's own, and the number of parameters that differ between people.
 {numbers}
 {words}
 models <- list(
@@ -409,28 +477,37 @@ read <- function(name) {{
 }}
 
 {rows}
-for (measure in names(models)) for (effects in models[[measure]]) {{
+for (measure in names(models)) for (model in models[[measure]]) {{
   known <- rows[!is.na(rows[[measure]]), ]
   for (name in names(numbers)) known[[name]] <- known[[name]] - mean(known[[name]], na.rm = TRUE)
   for (name in names(words)) known[[name]] <- droplevels(factor(known[[name]], levels = words[[name]]))
-  fit <- lmer(as.formula(paste0("`", measure, "` ~ ", effects, " + (1 | person)")), known, REML = TRUE)
-  error <- sqrt(diag(as.matrix(vcov(fit))))
-  table <- data.frame(estimate = fixef(fit), low = fixef(fit) - 1.96 * error, high = fixef(fit) + 1.96 * error)
+  formula <- paste(c(model$effects, "(1 | person)", model$own), collapse = " + ")
+  fit <- lmer(as.formula(paste0("`", measure, "` ~ ", formula)), known, REML = TRUE)
+  people <- ngrps(fit)[["person"]]
+  half <- qt(0.975, max(1, people - model$between)) * sqrt(diag(as.matrix(vcov(fit))))
+  table <- data.frame(estimate = fixef(fit), low = fixef(fit) - half, high = fixef(fit) + half)
   labels <- c("(Intercept)" = "Intercept")
   for (name in names(numbers)) labels[name] <- paste0(name, ", for each ", numbers[[name]])
   for (name in names(words)) for (level in levels(known[[name]])[-1])
     labels[paste0(name, level)] <- paste0(name, ": ", level, " - ", levels(known[[name]])[1])
   label <- function(row) if (row %in% names(labels)) labels[[row]] else row
   both <- function(row) paste(sapply(strsplit(row, ":", fixed = TRUE)[[1]], label), collapse = " x ")
-  main <- effects == models[[measure]][1]
+  main <- model$effects == models[[measure]][[1]]$effects
   if (!main) table <- table[!rownames(table) %in% names(labels), ]
   rownames(table) <- sapply(rownames(table), if (main) label else both)
-  cat("\\n", measure, ": ", ngrps(fit), " people, ", nobs(fit), " trials; standard deviation between people\\n", sep = "")
-  cat(sprintf("%.6g, within %.6g; ", sqrt(VarCorr(fit)$person[1]), sigma(fit)))
+  cat("\\n", measure, ": ", people, " people, ", nobs(fit), " trials; standard deviation between people\\n", sep = "")
+  variances <- as.data.frame(VarCorr(fit))
+  between <- variances$sdcor[grepl("^person([.][0-9]+)?$", variances$grp) & variances$var1 == "(Intercept)"]
+  cat(sprintf("%.6g, within %.6g; ", between, sigma(fit)))
   cat(if (main) "estimates" else "interactions", "and 95 % intervals:\\n")
   print(format(table, digits = 6, width = 10))
 }}
 """
+
+
+def _r_model(model: _Model) -> str:
+    own = f",\n         own = c({_R_LINE.join(map(_text, model.own))})" if model.own else ""
+    return f"list(effects = {_text(model.effects)}, between = {model.between}{own})"
 
 
 def _r_attempts(design: _Design, sitting: list[str]) -> str:

@@ -8,7 +8,7 @@ import re
 import sys
 from pathlib import Path
 
-from ..errors import Error
+from ..errors import Error, shorten_warnings, tell
 from . import power
 
 
@@ -27,6 +27,8 @@ def main(words: list[str]) -> int:
     asked = parser.parse_args(words)
     from .page import warnings_of  # needs matplotlib
 
+    shorten_warnings()
+
     path = Path(asked.path).absolute()
     name = path.parent.name if path.name == "pool" else f"{path.stem}_{asked.seed}"
     out = Path(asked.out or f"power/{name}")
@@ -40,7 +42,7 @@ def main(words: list[str]) -> int:
         print("interrupted: the people who have finished are kept, and the same command continues", file=sys.stderr)
         return 130
     except Error as why:
-        print("\n".join(problem.text() for problem in why.problems), file=sys.stderr)
+        tell(why)
         return 2
     except OSError as why:
         print(f"{out}: error: cannot be written: {why.strerror}. Name another folder with --out.", file=sys.stderr)

@@ -160,6 +160,8 @@ def warnings_of(result: Power) -> list[str]:
     """Reasons not to use the power as it is."""
     table, everybody = result.table, len(result.data.people)
     out = limits_of(result.data)
+    # in force channels, the same columns are another measure, which was not compared
+    unknown = [name for name in result.effect.columns if name not in _COMPARED or is_index(result.data)]
     low, high = result.interval
     if low <= 0 <= high:
         out.append(
@@ -167,14 +169,14 @@ def warnings_of(result: Power) -> list[str]:
             "Rehearse more people (--people), or plan with the smallest effect that matters to you."
         )
     if result.effect.has_fixed_value:
+        known = "has not been compared with that of real people" if unknown else (
+            "differs from that of a group of real people by up to 9 degrees")  # fmt: skip
         out.append(
             "The effect compares people with a fixed number. This requires the mean of simulated people to be right, not "
-            "only their differences; in rotations, their mean differs from that of a group of real people by up to 9 degrees."
+            f"only their differences; in this measure, their mean {known}."
         )
     out += [f"Left out: {why}." for why in result.data.left_out]
     out += _drivers(result)
-    # in force channels, the same columns are another measure, which was not compared
-    unknown = [name for name in result.effect.columns if name not in _COMPARED or is_index(result.data)]
     if unknown and result.data.is_simulated:
         out.append(
             f"How much {listed(unknown)} varies over trials and over people has never been compared with real people. If "

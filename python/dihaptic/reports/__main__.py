@@ -5,10 +5,9 @@ from __future__ import annotations
 import json
 import os
 import sys
-import warnings
 from typing import Any
 
-from ..errors import Error
+from ..errors import Error, shorten_warnings, tell
 from . import write_page
 
 _HELP = """Make report.html and its figures from the tables that are there
@@ -25,7 +24,7 @@ def main(words: list[str]) -> int:
     if not words or words[0] in ("-h", "--help"):
         print(_HELP)
         return 0 if words else 2
-    warnings.formatwarning = lambda message, *_: f"{message}\n"  # short, for the command line
+    shorten_warnings()
     try:
         told: dict[str, Any] = {} if sys.stdin is None or sys.stdin.isatty() else json.loads(sys.stdin.buffer.read() or "{}")
         show = _Progress()
@@ -41,7 +40,7 @@ def main(words: list[str]) -> int:
         print("interrupted: report.html is as it was before", file=sys.stderr)
         return 130
     except Error as why:
-        print("\n".join(problem.text() for problem in why.problems), file=sys.stderr)
+        tell(why)
         return 1
     if not told:
         print(page)

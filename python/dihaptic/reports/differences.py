@@ -125,19 +125,15 @@ def differences_in_words(data: Data) -> str:
     counts: dict[str, None] = {}
     for case in (late or cases)[:_MOST_IN_WORDS]:
         for other, found in _compared(case, sides):
-            interval = "no interval" if math.isnan(found.low) else f"{_number(found.low)} to {_number(found.high)}"
+            interval = "no interval" if math.isnan(found.low) else f"{in_short(found.low)} to {in_short(found.high)}"
             of = f" in {case.condition}" if case.condition else ""
             whom = f", {level(other)}" if len(sides) > 2 else ""
-            texts.append(f"{case.what}{of}{whom}: {with_unit(_number(found.value), case.unit)} ({interval})")
+            texts.append(f"{case.what}{of}{whom}: {with_unit(in_short(found.value), case.unit)} ({interval})")
             counts[found.n] = None
     if not texts:
         return ""
     whose = f"{level(sides[1])} less {level(sides[0])}" if len(sides) == 2 else f"less {level(sides[0])}"
     return f"Differences of means, {whose} (95 % interval): {'; '.join(texts)}; n = {', '.join(counts)}."
-
-
-def _number(value: float) -> str:
-    return in_short(value).replace("-", "\N{MINUS SIGN}")
 
 
 def _sides(data: Data) -> tuple[str, list[str]]:

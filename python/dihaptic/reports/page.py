@@ -131,11 +131,16 @@ _BUTTONS = [("copy", "Copy"), ("svg", "Save SVG"), ("png", "Save PNG")]
 
 
 def in_short(value: Any) -> str:
-    """A cell in words: numbers with three digits, "-" for what is missing. A number as small as a rounding error becomes 0."""
+    """A cell in words: numbers with three digits and a minus sign, "-" for what is missing. A number as small as a rounding
+    error becomes 0."""
     if isinstance(value, (bool, str)):
         return {True: "yes", False: "no"}.get(value, str(value)) if isinstance(value, bool) else value
     if value is None or pd.isna(value):
         return "-"
+    return _three_digits(value).replace("-", "\N{MINUS SIGN}")
+
+
+def _three_digits(value: float) -> str:
     if isinstance(value, int) or float(value).is_integer() and abs(value) < 1e6:
         return str(int(value))
     if abs(value) < 1e-6:
