@@ -6,6 +6,7 @@ import pathlib
 import random
 import re
 import shutil
+import sys
 import tempfile
 import unittest
 import warnings
@@ -16,6 +17,9 @@ import numpy as np
 import yaml
 
 matplotlib.use("Agg")
+
+sys.path.append("test")
+import soak  # noqa: E402
 
 import dihaptic as dh  # noqa: E402
 
@@ -72,7 +76,7 @@ class Damaged(unittest.TestCase):
         file = folder / "session.nwb"
         whole = file.read_bytes()
         draw = random.Random(1)
-        for _ in range(60):
+        for _ in range(soak.of(15, 60)):
             at, bit = draw.randrange(len(whole)), draw.randrange(8)
             changed = bytearray(whole)
             changed[at] ^= 1 << bit
@@ -85,7 +89,7 @@ class Damaged(unittest.TestCase):
         folder = self.copy()
         file = folder / "session.yaml"
         lines = file.read_text().splitlines(keepends=True)
-        for kept in range(len(lines)):
+        for kept in range(0, len(lines), soak.of(4, 1)):
             file.write_text("".join(lines[:kept]))
             self.assertTrue(self.assert_is_told(folder, f"{kept} lines"), f"{kept} of {len(lines)} lines")
             with self.assertRaisesRegex(dh.Error, "session.yaml: error: is cut off.*dihaptic recover"):

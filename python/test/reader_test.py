@@ -18,6 +18,7 @@ from dihaptic import _native, _remedy
 
 sys.path += ["test", "docs/manual/make"]
 import needs  # noqa: E402
+import soak  # noqa: E402
 from pages import MANUAL, blocks, unlike  # noqa: E402
 
 PACKAGE = pathlib.Path(os.environ["PYTHONPATH"]).absolute() / "dihaptic"
@@ -137,6 +138,7 @@ print(dh.load)
         finally:
             _remedy._FOLDER, os.environ["PATH"] = whole, path
 
+    @soak.alone
     def test_is_typed_for_the_oldest_python_that_it_is_for(self):
         try:
             import mypy  # noqa: F401

@@ -256,13 +256,13 @@ class Schemas(unittest.TestCase):
                 for what, make in mistakes(schema, root):
                     every[what].append((path, make))
             some = [(what, path, make()) for what, all_of in every.items()
-                    for path, make in chance.sample(all_of, min(soak.of(8, 200), len(all_of)))]
+                    for path, make in chance.sample(all_of, min(soak.of(5, 200), len(all_of)))]
             for (what, path, mistaken), usable in zip(some, self.usable(kind, [root for _, _, root in some])):
                 with self.subTest(what=what, file=str(path)):
                     self.assertNotEqual(schema.problems(mistaken), [], mistaken)
                     self.assertFalse(usable, mistaken)
                 made[what] += 1
-        self.assertGreaterEqual(min(made.values()), soak.of(8, 20), made)
+        self.assertGreaterEqual(min(made.values()), soak.of(5, 20), made)
         self.assertEqual(len(made), 11, made)
 
     def test_what_is_said_in_another_way_is_accepted_by_both(self):
@@ -271,25 +271,25 @@ class Schemas(unittest.TestCase):
         for kind in ("scene", "rig", "experiment"):
             schema = self.schemas[kind]
             every = [(path, *one) for path, root in self.files[kind].items() for one in other_ways(schema, root)]
-            some = [(path, what, make()) for path, what, make in chance.sample(every, min(soak.of(60, 1000), len(every)))]
+            some = [(path, what, make()) for path, what, make in chance.sample(every, min(soak.of(40, 1000), len(every)))]
             for (path, what, other), usable in zip(some, self.usable(kind, [root for _, _, root in some])):
                 with self.subTest(what=what, file=str(path)):
                     self.assertEqual(schema.problems(other), [])
                     self.assertTrue(usable, other)
                 made[what] += 1
-        self.assertGreaterEqual(min(made.values()), soak.of(12, 30), made)
+        self.assertGreaterEqual(min(made.values()), soak.of(6, 30), made)
 
     def test_nonsense_that_a_schema_refuses_is_refused_by_the_program(self):
         chance = random.Random(9)
         refused = 0
         for kind, files in self.files.items():
             schema = self.schemas[kind]
-            roots = [nonsense(schema, chance.choice(list(files.values())), chance) for _ in range(soak.of(60, 2000))]
+            roots = [nonsense(schema, chance.choice(list(files.values())), chance) for _ in range(soak.of(30, 2000))]
             for root, usable in zip(roots, self.usable(kind, roots)):
                 problems = schema.problems(root)
                 refused += problems != []
                 self.assertFalse(problems and usable, f"{problems}\n{json.dumps(root)[:3000]}")
-        self.assertGreater(refused, soak.of(120, 4000))
+        self.assertGreater(refused, soak.of(60, 4000))
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ from ..errors import NotThere, error
 from .data import ASIDE, SITTING, Data, checked_list, sitting_columns, with_design
 from .means import intervals, means_with_intervals, said_of_limits, within_limits
 from .saving import Plan
-from .style import COLOURS, MARKERS, WIDTHS, canvas, drawing, fit_names, legend_above, of_data, same_limits, wrapped
+from .style import COLOURS, MARKERS, WIDTHS, canvas, drawing, faint, fit_names, legend_above, of_data, same_limits, wrapped
 from .words import counted, label, level, words_of
 
 #: Heading above these figures in a report.
@@ -212,11 +212,12 @@ def _dots_and_mean(
     aside = (i - (colours - 1) / 2) * 0.12 * step
     hue, marker = COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]
     people = shown[shown["of"] == "person"]
+    opacity = faint(colours * people["person"].nunique())
     for _, own in people.groupby("person"):
         own = own.sort_values(x, key=lambda levels: levels.map(places))
         at = [places[value] + aside for value in own[x]]
         joined = len(own) == own[x].nunique()  # one person's trials are not joined
-        axes.plot(at, own["value"], color=hue, alpha=0.35, linewidth=0.6 if joined else 0, marker=".", markersize=3)
+        axes.plot(at, own["value"], color=hue, alpha=opacity, linewidth=0.6 if joined else 0, marker=".", markersize=3)
     mean = shown[shown["of"] == "mean"].assign(at=lambda rows: [places[value] + aside for value in rows[x]]).sort_values("at")
     low, high = (mean["value"] - mean["low"]).fillna(0), (mean["high"] - mean["value"]).fillna(0)
     reach = np.array([low, high])

@@ -16,7 +16,7 @@ from .conditions import counting_trials
 from .data import Data
 from .means import BY_T, intervals, means_with_intervals
 from .saving import Plan
-from .style import COLOURS, MARKERS, canvas, drawing, legend_above, of_data
+from .style import COLOURS, MARKERS, canvas, drawing, faint, legend_above, of_data
 from .words import counted, level, split
 
 #: Heading above this figure in a report.
@@ -78,7 +78,8 @@ def draw_fitts_law(points: pd.DataFrame, *, size: str = "one column", height_mm:
         hue, marker = COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]
         own = points[points["group"] == group]
         people, mean, line = (own[own["of"] == of] for of in ("person", "mean", "line"))
-        axes.plot(people["difficulty_bits"], people["value"], color=hue, alpha=0.35, ls="", marker=".", ms=3)
+        opacity = faint(people["person"].nunique())
+        axes.plot(people["difficulty_bits"], people["value"], color=hue, alpha=opacity, ls="", marker=".", ms=3)
         low, high = (mean["value"] - mean["low"]).fillna(0), (mean["high"] - mean["value"]).fillna(0)
         style: dict[str, Any] = {"color": hue, "marker": marker, "ls": "", "capsize": 2, "elinewidth": 1, "zorder": 3}
         axes.errorbar(mean["difficulty_bits"], mean["value"], np.array([low, high]), label=level(group), **style)

@@ -31,7 +31,7 @@ from .courses import (
 from .data import Data, checked_list
 from .means import BY_T, intervals, means_with_intervals, said_of_limits, within_limits
 from .saving import Plan
-from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, fit_names, legend_above, of_data, same_limits, wrapped
+from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, faint, fit_names, legend_above, of_data, same_limits, wrapped
 from .words import counted, label, level, words_of
 
 #: Heading above these figures in a report.
@@ -264,9 +264,10 @@ def _dots(axes: Axes, own: pd.DataFrame, windows: list[str], i: int, levels: int
     own = own.assign(at=own["window"].map({window: place + aside for place, window in enumerate(windows)})).sort_values("at")
     mean, people = own[own["of"] == "mean"], own[own["of"] == "person"]
     if people["person"].nunique() > 1:
+        opacity = faint(levels * people["person"].nunique())
         for _, one in people.groupby(["part", "person"]):
             joined = 0.0 if one["is_difference"].any() else 0.5
-            axes.plot(one["at"] - 0.06 / levels, one["value"], color=hue, alpha=0.35, lw=joined, marker="o", ms=2, mew=0)
+            axes.plot(one["at"] - 0.06 / levels, one["value"], color=hue, alpha=opacity, lw=joined, marker="o", ms=2, mew=0)
     low, high = (mean["value"] - mean["low"]).fillna(0), (mean["high"] - mean["value"]).fillna(0)
     reach = np.array([low, high])
     axes.errorbar(mean["at"], mean["value"], reach, color=hue, marker=marker, ls="", capsize=2, elinewidth=1, zorder=3)
@@ -303,12 +304,13 @@ def draw_generalisation(points: pd.DataFrame, *, size: str = "one column", heigh
     figure, (axes,) = canvas(size, height_mm)
     colour = "group" if points["group"].nunique() > 1 else "part"
     levels = list(dict.fromkeys(points[colour]))
+    opacity = faint(len(points.loc[points["of"] == "person", ["part", "person", colour]].drop_duplicates()))
     for i, value in enumerate(levels):
         hue, marker = COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]
         own = points[points[colour] == value].sort_values("angle_deg")
         mean = own[own["of"] == "mean"]
         for _, one in own[own["of"] == "person"].groupby(["part", "person"]):
-            style = {"alpha": 0.35, "lw": 0.5, "ms": 2} if len(mean) else {"ms": 3.5}
+            style = {"alpha": opacity, "lw": 0.5, "ms": 2} if len(mean) else {"ms": 3.5}
             axes.plot(one["angle_deg"], one["value"], color=hue, marker=marker, **style)
         low, high = (mean["value"] - mean["low"]).fillna(0), (mean["high"] - mean["value"]).fillna(0)
         if len(mean):

@@ -16,7 +16,7 @@ from ..errors import NotThere, error
 from ..session import Session
 from .data import ASIDE, Data, sitting_columns, with_design
 from .saving import Plan
-from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, legend_above, of_data, wrapped
+from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, faint, legend_above, of_data, wrapped
 from .words import counted, label, level
 
 Array = npt.NDArray[Any]
@@ -496,7 +496,7 @@ def _course_of_lifts(axes: Axes, part: pd.DataFrame, look: tuple[str, Any, str],
     if joined and len(mean) > 1:
         for _, own in people.groupby("person"):
             own = own.sort_values("number")
-            axes.plot(own["number"], own["value"], color=hue, alpha=0.3, linewidth=0.5)
+            axes.plot(own["number"], own["value"], color=hue, alpha=faint(people["person"].nunique()), linewidth=0.5)
         axes.plot(mean["number"], mean["value"], color=hue, linestyle=dashes, marker=marker, markersize=3, linewidth=1.6)
     else:
         axes.plot(people["number"], people["value"], marker, color=hue, markersize=4 if mean.empty else 2.5, linestyle="none",

@@ -19,7 +19,7 @@ from .conditions import counting_trials
 from .data import Data, sitting_columns
 from .means import BY_T, intervals, means_with_intervals
 from .saving import Plan
-from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, fit_names, legend_above, of_data, wrapped
+from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, faint, fit_names, legend_above, of_data, wrapped
 from .words import counted, in_print, label, level, words_of
 
 #: Heading above these figures in a report.
@@ -966,9 +966,10 @@ def _shares_of_series(axes: Axes, own: pd.DataFrame, aside: float, i: int) -> No
     people = own[own["of"] == "person"]
     mean = own[own["of"] == "mean"]
     if len(mean):
+        opacity = faint(people["person"].nunique())
         for _, each in people.groupby("person", sort=False):
             each = each.sort_values("x")
-            axes.plot(each["x"] + aside, each["value"], color=hue, alpha=0.3, linewidth=0.4, marker=".", markersize=3, zorder=1)
+            axes.plot(each["x"] + aside, each["value"], color=hue, alpha=opacity, lw=0.4, marker=".", ms=3, zorder=1)
     shown = (mean if len(mean) else people).sort_values("x")
     # a share lies between 0 and 1, whatever Student's distribution suggests
     low, high = shown["low"].clip(lower=0), shown["high"].clip(upper=1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Callable
 from functools import cache, wraps
@@ -159,6 +160,17 @@ def letter_mm() -> float:
     text = "opposite field without measurement"
     width = TextPath((0, 0), text, size=7, prop=FontProperties(size=7)).get_extents().width
     return 1.06 * float(width) / len(text) / 72 * 25.4
+
+
+def faint(curves: int) -> float:
+    """The opacity of the marks of single people, fainter the more there are: together they show how people differ, and the
+    means on top of them can still be seen.
+
+    >>> from dihaptic.figures.style import faint
+    >>> [round(faint(curves), 2) for curves in (1, 12, 48, 120)]
+    [0.35, 0.35, 0.17, 0.11]
+    """
+    return 0.35 * math.sqrt(min(1.0, 12 / max(curves, 1)))
 
 
 def wrapped(text: str, letters: int) -> str:

@@ -63,7 +63,7 @@ def power(
 
     >>> import dihaptic as dh
     >>> pool = dh.rehearse("experiments/first-trials.yaml", 12, out=f"{folder}/pool", progress=False)
-    >>> result = dh.power(pool.folder, "mean(static_grip_N, block=heavy) - mean(static_grip_N, block=light)", [6, 8])
+    >>> result = dh.power(pool.folder, "mean(static_grip_N, block=heavy) - mean(static_grip_N, block=light)", [6, 8], draws=100)
     >>> result.table[["n", "power"]].values.tolist()
     [[6.0, 1.0], [8.0, 1.0]]
     """
