@@ -407,6 +407,9 @@ class Session:
         # the fingers and bodies matter only for other names
         place = vocabulary.place_of(name, {} if vocabulary.find(name) else self._items)
         if place is None:
+            for table in tables_in(self.folder):
+                if table.replace("-", "_") == name.replace("-", "_"):
+                    raise NotThere(name, "is a table of this session, not a quantity", [], f'Session.table("{table}") reads it.')
             raise NotThere(name, "is not recorded", self.keys(), "Session.quantities lists them.")
         return place
 

@@ -1,6 +1,7 @@
 """Rates of learning fitted to groups of people: those from which the groups were made are found again."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -246,10 +247,10 @@ class Calibration(unittest.TestCase):
                 self.assertIn(what, wrong.stderr)
         self.assertIn("lab0 (24), lab1 (24)", out.read_text())
 
-
     def test_ends_when_it_is_told_to(self):
         out = Path(self.folder.name, "never.yaml")
-        command = [os.environ.get("DIHAPTIC", "build/release/dihaptic"), "calibrate-population", *map(str, self.files)]
+        many = [shutil.copy(file, Path(self.folder.name, f"{n}-{file.name}")) for n in range(20) for file in self.files]
+        command = [os.environ.get("DIHAPTIC", "build/release/dihaptic"), "calibrate-population", *map(str, many)]
         for name in ("SIGTERM", "SIGINT"):
             with self.subTest(name):
                 running = subprocess.Popen([*command, "--out", str(out)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)

@@ -170,7 +170,8 @@ class Pools(unittest.TestCase):
             ("mean(x, group=a) - mean(x, group=b) - mean(x, group=c)", "names 3 groups"),
             ("mean(x, block=heavy, block=light)", "has two conditions on block. Write a mean for each"),
             ("mean(x, block=-'light')", "must be a name"), ("mean(-None)", "must be a name"),
-            (900 * "-" + "mean(x)", "is nested too deeply"), ("mean(x)" + 900 * "+1", "is nested too deeply"),
+            (900 * "-" + "mean(x)", "is too long: it has"), ("mean(x)" + 900 * "+1", "is too long: it has"),
+            (" + ".join(30 * ["mean(x, block=light)"]), "is too long: it has 298 parts, and may have 200. Shorten it."),
         ):
             with self.subTest(text[:60]):
                 self.refused(what, lambda text=text: Effect(text))

@@ -60,6 +60,11 @@ class Sessions(unittest.TestCase):
                     np.testing.assert_array_equal(here, series[group]["data"], err_msg=name)
             self.assertEqual(found, set(series))
 
+    def test_a_table_that_is_asked_for_as_a_quantity_is_named(self):
+        for name in ("lifts", "phases"):
+            with self.assertRaisesRegex(dh.NotThere, rf'^{name}: is a table of this session, .* Session.table\("{name}"\) reads it'):
+                self.lift[name]
+
     def test_every_series_is_read(self):
         for kind in KINDS:
             with self.subTest(kind):

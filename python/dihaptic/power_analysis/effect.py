@@ -25,6 +25,8 @@ _OPERATORS: dict[type, Callable[[Any, Any], Any]] = {
 }  # fmt: skip
 #: Tables in which a column is looked for, in this order.
 _TABLES = ["trials", "lifts", "fits", "thresholds", "adaptation", "phases", "episodes"]
+#: Maximum number of names, numbers and operators of an effect: about 25 terms.
+_MOST_PARTS = 200
 _EXAMPLE = "Write e.g. mean(movement_time_s, block=late) - mean(movement_time_s, block=early)."
 
 
@@ -50,11 +52,11 @@ class Effect:
             self._tree = ast.parse(text.strip(), mode="eval").body
         except (SyntaxError, ValueError, RecursionError):
             raise error("is not an expression", f"{_EXAMPLE} Conditions are equalities.", key=text) from None
-        try:
-            self._check(self._tree)
-            self.groups = list(dict.fromkeys(self._groups_in(self._tree)))
-        except RecursionError:
-            raise error("is nested too deeply", "Shorten it.", key=text[:60] + "...") from None
+        parts = sum(1 for _ in ast.walk(self._tree))
+        if parts > _MOST_PARTS:
+            raise error(f"is too long: it has {parts} parts, and may have {_MOST_PARTS}", "Shorten it.", key=text[:60] + "...")
+        self._check(self._tree)
+        self.groups = list(dict.fromkeys(self._groups_in(self._tree)))
         if not any(isinstance(node, ast.Call) for node in ast.walk(self._tree)):
             raise error("has no term, such as mean(movement_time_s)", _EXAMPLE, key=text)
         if len(self.groups) == 2:
