@@ -22,8 +22,7 @@ import soak
 PROGRAM = os.path.abspath(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic")
 KEPT = pathlib.Path("test/tables.txt")
 RENEWS = "DIHAPTIC_RENEW_TABLES" in os.environ
-# without trials; with recorded movements; phases and adaptation; lifts; procedures and thresholds; custom measures; a sequence
-# of loads; sounds
+# without trials; with phases and adaptation; lifts; procedures and thresholds; a sequence of loads
 A_FEW = ["lift-block", "rotation-reversal", "first-trials", "friction-discrimination", "load-steps"]
 EVERY = sorted(path.stem for path in pathlib.Path("experiments").glob("*.yaml"))
 #: Files that contain times or the version of the program, besides results.

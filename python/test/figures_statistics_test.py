@@ -195,7 +195,8 @@ class Statistics(unittest.TestCase):
         table = table[(table["surface"] == "sandpaper") | (table["mass_g"] == 400)]
         sessions(self.folder, {"trials": as_trials(table)})
         figures.write_analyses(figures.read(self.folder), self.folder / "figures")
-        self.assertIn('"grip_N": [("surface + mass_g", ["surface", "I(mass_g / 218)"], 1)],', (self.folder / "figures" / "analysis.py").read_text())
+        script = (self.folder / "figures" / "analysis.py").read_text()
+        self.assertIn('"grip_N": [("surface + mass_g", ["surface", "I(mass_g / 218)"], 1)],', script)
 
     def test_effects_that_vary_within_people_are_their_own(self):
         random = np.random.default_rng(5)

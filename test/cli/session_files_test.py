@@ -92,7 +92,7 @@ task:
                   "session.nwb": [], "settings.csv": ["report"], "events.csv": ["export"], "shown.csv": ["recover"]}
         kinds = ["pipe", "device", "folder", "loop", "large", "empty", "gone", "cut"]
         for i, (file, commands) in enumerate(needed.items()):
-            for kind in soak.of(kinds[i % len(kinds):][:1], kinds):
+            for kind in soak.of([kinds[i % len(kinds)]], kinds):
                 if (file, kind) in [("shown.csv", "cut"), ("raw.log", "large"), ("session.nwb", "large")]:
                     continue
                 for name in soak.of(commands[:1], commands) or ["recover"]:

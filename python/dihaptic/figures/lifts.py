@@ -494,9 +494,10 @@ def _course_of_lifts(axes: Axes, part: pd.DataFrame, look: tuple[str, Any, str],
     hue, dashes, marker = look
     people, mean = part[part["of"] == "person"], part[part["of"] == "mean"].sort_values("number")
     if joined and len(mean) > 1:
+        opacity = faint(people["person"].nunique())
         for _, own in people.groupby("person"):
             own = own.sort_values("number")
-            axes.plot(own["number"], own["value"], color=hue, alpha=faint(people["person"].nunique()), linewidth=0.5)
+            axes.plot(own["number"], own["value"], color=hue, alpha=opacity, linewidth=0.5)
         axes.plot(mean["number"], mean["value"], color=hue, linestyle=dashes, marker=marker, markersize=3, linewidth=1.6)
     else:
         axes.plot(people["number"], people["value"], marker, color=hue, markersize=4 if mean.empty else 2.5, linestyle="none",

@@ -34,7 +34,7 @@ _R_WORDS = {
 _PATSY_WORDS = {"C", "Q", "I", "T", "center", "standardize", "Treatment", "Sum", "Diff", "Poly", "Helmert"}
 _WIDTH = 118
 #: Between the terms of a model in R.
-_R_LINE = ",\n                 "
+_R_LINE = ",\n                   "
 #: Maximum number of parameters of an interaction.
 _MOST_OF_PAIR = 12
 #: Trials that each person's own effect needs, so that it can be told from the scatter of trials: for each level of words, and
@@ -146,7 +146,7 @@ def _add_model(rows: pd.DataFrame, measure: str, design: _Design) -> None:
         return
     design.models[measure] = effects
     design.pairs[measure] = pairs = _pairs(rows, measure, effects, design)
-    known = rows[rows[measure].notna()].dropna(subset=effects)
+    known = rows.dropna(subset=[measure, *effects])
     levels = known.groupby("person")[effects].nunique()
     within = [name for name in effects if (levels[name] > 1).mean() >= 0.5]
     of_one = [(name,) for name in within]
@@ -266,7 +266,7 @@ def _about(data: Data, design: _Design) -> list[str]:
     what = label("late compensation", design.unit) if design.late else "measures over attempts"
     return [
         f"Mixed models of {' '.join(data.title.split()) or 'an experiment'}: {what}, by the factors of the design.",
-        "Each person has an intercept, and effects of their own of what varies within people. Intervals are by Student's t.",
+        "Each person has an intercept, and an effect of each factor that varies within people. Intervals are by Student's t.",
     ]
 
 
@@ -277,6 +277,8 @@ def _notes(design: _Design) -> list[str]:
     partial = [measure for measure, effects in design.models.items() if len(effects) < len(factors)]
     if partial:
         notes.append("Factors whose effects a measure's trials cannot separate are left out of its model.")
+    if any(design.own.values()):
+        notes.append("Where people hardly differ in an effect, statsmodels warns of a boundary, and lme4 of a singular fit.")
     if any(design.pairs.values()):
         notes.append("The second model of a measure adds interactions: how much the effect of one factor differs for the other.")
     return notes
@@ -321,12 +323,13 @@ def _own_effect(factors: tuple[str, ...], names: dict[str, str], design: _Design
     return f"({'0 + ' + ':'.join(numbers) if numbers else '1'} | {':'.join(['person', *words])})"
 
 
-def _laid_out(head: str, items: list[str], tail: str, indent: str = "    ") -> str:
-    """A list on one line if it fits there, and otherwise with an item on each line."""
+def _laid_out(head: str, items: list[str], tail: str) -> str:
+    """A list on one line if it fits there, and otherwise with an item on each line, farther to the right than its head."""
     line = f"{head}{', '.join(items)}{tail}"
     if len(line) <= _WIDTH:
         return line
-    return head + ",".join(f"\n{indent}{item}" for item in items) + "\n" + indent[4:] + tail
+    margin = "\n" + (len(head) - len(head.lstrip())) * " "
+    return head + ",".join(f"{margin}    {item}" for item in items) + margin + tail
 
 
 def _text(value: Any) -> str:
@@ -358,7 +361,7 @@ def _python(data: Data, design: _Design) -> str:
     models = ""
     for name in design.models:
         each = [_python_model(model) for model in _models(design, name, "Python")]
-        models += _laid_out(f"    {_text(name)}: [", each, "],", "        ") + "\n"
+        models += _laid_out(f"    {_text(name)}: [", each, "],") + "\n"
     rows = _python_late(design, sitting) if design.late else _python_attempts(design, sitting)
     return f'''"""{about}
 Run with python3 analysis.py; it needs the Debian package python3-statsmodels. analysis.R fits the same models.
@@ -372,7 +375,7 @@ from patsy import dmatrix
 from scipy.stats import t
 
 {_comment(_notes(design))}
-# Of each model: the formula, the effects of a person's own, and the number of parameters that differ between people.
+# Each model: its formula, the effects that differ from person to person, and the number of parameters between people.
 {numbers}
 {words}
 MODELS = {{
@@ -463,7 +466,7 @@ script <- sub("^--file=", "", grep("^--file=", commandArgs(), value = TRUE))
 if (length(script) == 1) setwd(dirname(gsub("~+~", " ", script, fixed = TRUE)))
 
 {_comment(_notes(design))}
-# Of each model: the formula, the effects of a person's own, and the number of parameters that differ between people.
+# Each model: its formula, the effects that differ from person to person, and the number of parameters between people.
 {numbers}
 {words}
 models <- list(
@@ -506,7 +509,7 @@ for (measure in names(models)) for (model in models[[measure]]) {{
 
 
 def _r_model(model: _Model) -> str:
-    own = f",\n         own = c({_R_LINE.join(map(_text, model.own))})" if model.own else ""
+    own = f",\n           own = c({_R_LINE.join(map(_text, model.own))})" if model.own else ""
     return f"list(effects = {_text(model.effects)}, between = {model.between}{own})"
 
 

@@ -169,8 +169,9 @@ def warnings_of(result: Power) -> list[str]:
             "Rehearse more people (--people), or plan with the smallest effect that matters to you."
         )
     if result.effect.has_fixed_value:
-        known = "has not been compared with that of real people" if unknown else (
-            "differs from that of a group of real people by up to 9 degrees")  # fmt: skip
+        known = "differs from that of a group of real people by up to 9 degrees"
+        if unknown:
+            known = "has not been compared with that of real people"
         out.append(
             "The effect compares people with a fixed number. This requires the mean of simulated people to be right, not "
             f"only their differences; in this measure, their mean {known}."
@@ -223,8 +224,7 @@ def _drivers(result: Power) -> list[str]:
         return []
     return [
         f"Without {'any one of ' if len(out) > 1 else ''}{listed(out[:8])}, Cohen's d would change by more than "
-        f"{100 * _MOST_OF_ONE:.0f} %: look at "
-        "effect-of-people.csv, and at the trials of these people."
+        f"{100 * _MOST_OF_ONE:.0f} %: look at effect-of-people.csv, and at the trials of these people."
     ]
 
 

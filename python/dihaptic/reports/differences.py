@@ -14,7 +14,7 @@ from ..figures.conditions import averaged_over, axes_of_design, counting_trials,
 from ..figures.data import Data
 from ..figures.learning import DIFFERENCES, LEARNED, WINDOWS
 from ..figures.words import label, level, with_unit, words_of
-from .page import Page, in_short, with_interval, without_empty
+from .page import Page, between, in_short, with_interval, without_empty
 
 #: Maximum numbers of groups that are compared with the first one, and of conditions with rows of their own.
 _MOST_GROUPS, _MOST_CONDITIONS = 7, 6
@@ -125,7 +125,7 @@ def differences_in_words(data: Data) -> str:
     counts: dict[str, None] = {}
     for case in (late or cases)[:_MOST_IN_WORDS]:
         for other, found in _compared(case, sides):
-            interval = "no interval" if math.isnan(found.low) else f"{in_short(found.low)} to {in_short(found.high)}"
+            interval = "no interval" if math.isnan(found.low) else between(found.low, found.high)
             of = f" in {case.condition}" if case.condition else ""
             whom = f", {level(other)}" if len(sides) > 2 else ""
             texts.append(f"{case.what}{of}{whom}: {with_unit(in_short(found.value), case.unit)} ({interval})")
