@@ -116,8 +116,10 @@ std::vector<Choice> drawable_quantities(const scene::Scene& scene) {
     for (const std::string& name : names_in(scene)) {
         for (const std::string component : {"", ".x", ".y", ".z"}) add(name + component);
     }
-    std::ranges::stable_partition(
-        out, [](const Choice& choice) { return choice.word.find('.') == std::string::npos; });
+    // Clang 14 cannot compile std::ranges::stable_partition of GCC 12's library
+    std::stable_partition(out.begin(), out.end(), [](const Choice& choice) {
+        return choice.word.find('.') == std::string::npos;
+    });
     return out;
 }
 

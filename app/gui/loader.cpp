@@ -61,23 +61,23 @@ Opened open(const Wanted& wanted, std::unique_ptr<devices::DeviceGroup>& devices
 
 /// The loader to notify when a companion program must be waited for. The program has one window, so
 /// there is only one loader.
-std::atomic<Loader*> told{nullptr};
+std::atomic<Loader*> only{nullptr};
 
 void tell_of_wait(const std::string& what, int seconds, int most) {
-    if (Loader* const loader = told)
+    if (Loader* const loader = only)
         Q_EMIT loader->waits(QString::fromStdString(what), seconds, most);
 }
 
 }  // namespace
 
 Loader::Loader(QObject* parent) : QObject(parent) {
-    told = this;
+    only = this;
     tell_companion_waits(tell_of_wait);
 }
 
 Loader::~Loader() {
     tell_companion_waits(nullptr);
-    told = nullptr;
+    only = nullptr;
     cancel();
     if (thread_.joinable()) thread_.join();
 }

@@ -283,7 +283,7 @@ Json SchemaLister::of(int, const Field& field, double, const std::string& name) 
     whole.min = std::max(field.min, -kLargestWhole);
     whole.max = std::min(field.max, kLargestWhole);
     Json out = of(0.0, whole, 1, name);
-    out["type"] = {"integer", "string"};
+    out["type"] = Json::array({"integer", "string"});
     return out;
 }
 

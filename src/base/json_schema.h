@@ -58,7 +58,7 @@ class JsonSchema {
         parts_[{name, word}] = [this, heading, value] {
             const Json ref = refer(value, heading);
             // a mapping may be left empty
-            definitions_[heading]["type"] = {"object", "null"};
+            definitions_[heading]["type"] = Json::array({"object", "null"});
             return ref;
         };
     }

@@ -411,7 +411,7 @@ size_t first_turn(std::span<const double> x) {
 
 double spectral_arc_length(std::span<const double> speed, double tick) {
     constexpr double kHighest = 10;  // [Hz]
-    constexpr double kLeastShare = 0.05;
+    constexpr double kLeastAmplitude = 0.05;
     constexpr int kPadding = 4;  // zero padding by a factor of 2^4
     if (speed.size() < 2) return kUnmeasured;
     const auto powers =
@@ -431,7 +431,7 @@ double spectral_arc_length(std::span<const double> speed, double tick) {
             sine += speed[i] * std::sin(turn * static_cast<double>(i));
         }
         amplitude.push_back(std::hypot(cosine, sine) / most);
-        if (amplitude.back() >= kLeastShare) last = k;
+        if (amplitude.back() >= kLeastAmplitude) last = k;
     }
     if (last == 0) return kUnmeasured;
     double length = 0;

@@ -230,9 +230,9 @@ struct TaskPlan {
 
         /// Returns the measure's value in a tick, as written in the file, or NaN if `when` excludes
         /// the tick.
-        double in_tick(std::span<const double> quantities) const noexcept {
-            if (!when.empty() && when(quantities) == 0) return kUnmeasured;
-            return value.value(quantities);
+        double in_tick(std::span<const double> values) const noexcept {
+            if (!when.empty() && when(values) == 0) return kUnmeasured;
+            return value.value(values);
         }
     };
     Quantities measured;  ///< `quantities`, followed by further quantities for measures

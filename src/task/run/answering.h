@@ -15,8 +15,9 @@ namespace dihaptic::task {
 /// that draws slowly may pass on several keys at once.
 constexpr size_t kMostKeys = 64;
 
-/// A click on the line of a question.
-struct Click {
+/// A click on the line of a question. Aligned to its size, because otherwise Clang exchanges an
+/// atomic one by a call of a library, which may lock.
+struct alignas(8) Click {
     /// Index of the question; the number of questions stands for "done", -1 for no click.
     int32_t item = -1;
     /// Distance from the left end of the line, in millionths of the line's length.
