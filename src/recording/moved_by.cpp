@@ -23,8 +23,8 @@ std::string MovedBy::describe() const {
             return "Simulated: the file's script moved the hand. No person took part.";
         case Mover::simulated_person:
             return fmt::format(
-                "Simulated: a simulated person moved the hand ({}, population {}, seed {}). No "
-                "person took part.",
+                "Simulated: each hand was moved by a simulated person ({}, population {}, seed "
+                "{}). No person took part.",
                 program, population, seed);
         case Mover::not_recorded:
             break;

@@ -15,7 +15,7 @@ from matplotlib.ticker import MaxNLocator
 from ..errors import error
 from .data import sitting_columns
 from .means import means_with_intervals
-from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, legend_above, letter_mm, same_limits, wrapped
+from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, faint, legend_above, letter_mm, same_limits, wrapped
 from .words import level
 
 #: Maximum number of groups with colours of their own.
@@ -270,10 +270,12 @@ def _lines(axes: Axes, own: pd.DataFrame, group: int, several: bool, groups: int
     for share in BANDS:
         band = own[own["of"] == f"{share} %"].sort_values("trial")
         axes.fill_between(band["trial"], band["low"], band["high"], color=hue, alpha=_ALPHA, linewidth=0, zorder=2.5)
-    for _, one in own[own["of"].isin(["person", "laboratory"])].groupby("person"):
+    single = own[own["of"].isin(["person", "laboratory"])]
+    opacity = faint(groups * single["person"].nunique())
+    for _, one in single.groupby("person"):
         one = one.sort_values("trial")
         if several:
-            axes.plot(one["trial"], one["value"], color=hue, alpha=0.45, linewidth=0.5, zorder=3)
+            axes.plot(one["trial"], one["value"], color=hue, alpha=opacity, linewidth=0.5, zorder=3)
             continue
         catch = one["trial"].isin(_single_catch(own))
         axes.plot(one["trial"][~catch], one["value"][~catch], ls="", marker=MARKERS[group % 7], color=hue, ms=2, mew=0, alpha=0.7)

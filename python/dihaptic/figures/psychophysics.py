@@ -429,11 +429,10 @@ def _function(axes: Axes, own: pd.DataFrame, i: int, several: bool, largest: flo
         shares["level"], shares["value"], s=4 + 44 * shares["n"] / max(10, largest), marker="o", facecolor="white", edgecolor=hue,
         linewidth=0.9, zorder=2, clip_on=False,
     )  # fmt: skip
-    for _, curve in own[own["of"] == "curve"].groupby("person", sort=False):
-        axes.plot(
-            curve["level"], curve["value"], color=hue, linestyle=_LINES[i % len(_LINES)],
-            linewidth=0.6 if several else 1.2, alpha=0.5 if several else 1, zorder=3,
-        )  # fmt: skip
+    curves = own[own["of"] == "curve"]
+    line = {"linewidth": 0.6, "alpha": faint(curves["person"].nunique())} if several else {"linewidth": 1.2}
+    for _, curve in curves.groupby("person", sort=False):
+        axes.plot(curve["level"], curve["value"], color=hue, linestyle=_LINES[i % len(_LINES)], zorder=3, **line)
     thresholds = own[own["of"] == "threshold"]
     if several:
         axes.plot(thresholds["level"], thresholds["value"], linewidth=0, marker=".", markersize=3.5, color=hue, alpha=0.6)
@@ -669,10 +668,11 @@ def _people_and_mean(axes: Axes, own: pd.DataFrame, names: list[str], i: int, gr
     aside = (i - (groups - 1) / 2) * step
     places = {name: place + aside for place, name in enumerate(names)}
     people = own[own["of"] == "person"]
+    opacity = faint(people["person"].nunique())
     for _, each in people.groupby("person", sort=False):
         each = each.assign(at=each["procedure"].map(places)).sort_values("at")
         joined = groups == 1 and len(each) > 1
-        axes.plot(each["at"], each["value"], color=hue, alpha=0.4, linewidth=0.5 if joined else 0, marker="o", markersize=2.5)
+        axes.plot(each["at"], each["value"], color=hue, alpha=opacity, linewidth=0.5 if joined else 0, marker="o", markersize=2.5)
     mean = own[own["of"] == "mean"]
     at = mean["procedure"].map(places) + 0.3 * step
     errors = np.array([(mean["value"] - mean["low"]).fillna(0), (mean["high"] - mean["value"]).fillna(0)])
@@ -790,8 +790,9 @@ def _course(axes: Axes, own: pd.DataFrame, i: int, several: bool) -> None:
     """Draws the courses of one group's people, or of one person."""
     hue = COLOURS[i % len(COLOURS)]
     answers = own[own["of"] == "answer"]
+    opacity = faint(answers["person"].nunique()) if several else 0.8
     for _, each in answers.groupby("person", sort=False):
-        line = {"linewidth": 0.5, "alpha": 0.4} if several else {"linewidth": 0.7, "alpha": 0.8}
+        line = {"linewidth": 0.5 if several else 0.7, "alpha": opacity}
         axes.plot(each["answer"], each["level"], color=hue, zorder=1, **line)
     if not several and len(answers):
         for said, face in ((True, hue), (False, "white")):

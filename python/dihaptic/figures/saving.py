@@ -141,6 +141,8 @@ def save(figure: Figure, file: str | Path, points: pd.DataFrame | None = None) -
         "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
         "png": {"Software": None},
     }
+    # the usual compression of PNG takes twice as long, for files that are a tenth smaller
+    options: dict[str, dict[str, Any]] = {"svg": {"transparent": True}, "pdf": {}, "png": {"pil_kwargs": {"compress_level": 3}}}
     # the layout is computed once, so that it is the same in all formats; computing it takes as long as drawing
     engine = figure.get_layout_engine()
     with warnings.catch_warnings(record=True) as told:
@@ -153,7 +155,7 @@ def save(figure: Figure, file: str | Path, points: pd.DataFrame | None = None) -
         whole = io.BytesIO()
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", "Glyph .* missing")  # told above
-            figure.savefig(whole, format=kind, metadata=metadata[kind], **({"transparent": True} if kind == "svg" else {}))
+            figure.savefig(whole, format=kind, metadata=metadata[kind], **options[kind])
         content = _with_steady_names(whole.getvalue()) if kind == "svg" else whole.getvalue()
         written.append(write(base.with_name(f"{base.name}.{kind}"), content))
     figure.set_layout_engine(engine)
