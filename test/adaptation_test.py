@@ -36,7 +36,7 @@ class Adaptation(unittest.TestCase):
         ran = dihaptic("run", str(file), "--simulate", "--participant", "sim-001", "--out", cls.folder.name + "/out")
         assert ran.returncode == 0, ran.stderr
         session = session_of(cls.folder.name + "/out")
-        made = dihaptic("report", session)
+        made = dihaptic("report", session, "--tables")
         assert made.returncode == 0, made.stderr
         with open(session + "/adaptation.csv", newline="") as table:
             rows = list(csv.DictReader(table))

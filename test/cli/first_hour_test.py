@@ -208,7 +208,8 @@ class Readme(FirstHour):
                 if command.split()[1] == "gui":
                     self.look_at_window(command)
                     continue
-                result = self.typed(command)
+                self.assertEqual(command.count("--people 20"), command.split()[1] == "rehearse")
+                result = self.typed(command.replace("--people 20", soak.of("--people 8", "--people 20")))
                 self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
                 self.assertNotIn("warning", result.stdout + result.stderr)
                 self.assertNotIn("note:", result.stdout + result.stderr)

@@ -138,7 +138,7 @@ class Paradigms(unittest.TestCase):
     - { name: after, kind: washout, repeats: 8 }
 """)
         self.assertLess(session.trials.farthest_mm.max(), 200)
-        self.assertEqual(dihaptic("report", str(session.folder)).returncode, 0)
+        self.assertEqual(dihaptic("report", str(session.folder), "--tables").returncode, 0)
         curve = dh.load(session.folder).table("adaptation")
         learn = curve[curve.block == "learn"]
         self.assertEqual(set(learn.error_seen), {"yes"})
@@ -183,7 +183,7 @@ class Paradigms(unittest.TestCase):
     - { name: random, kind: perturbed, perturb: turned, repeats: 12 }
     - { name: after, kind: washout, repeats: 4 }
 """)
-        self.assertEqual(dihaptic("report", str(session.folder)).returncode, 0)
+        self.assertEqual(dihaptic("report", str(session.folder), "--tables").returncode, 0)
         (fits,) = dh.load(session.folder).table("fits").to_dict("records")
         for window in ["early", "late", "catch", "savings", "rebound"]:
             self.assertTrue(np.isnan(fits[window]), window)

@@ -304,7 +304,7 @@ class Sessions(unittest.TestCase):
         return out.getvalue()
 
     def reported(self):
-        result = dihaptic("report", str(self.session))
+        result = dihaptic("report", str(self.session), "--tables")
         made = self.session / "adaptation.csv"
         return result, made.read_text() if result.returncode == 0 else ""
 
