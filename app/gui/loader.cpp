@@ -61,23 +61,23 @@ Opened open(const Wanted& wanted, std::unique_ptr<devices::DeviceGroup>& devices
 
 /// The loader to notify when a companion program must be waited for. The program has one window, so
 /// there is only one loader.
-std::atomic<Loader*> only{nullptr};
+std::atomic<Loader*> the_loader{nullptr};
 
 void tell_of_wait(const std::string& what, int seconds, int most) {
-    if (Loader* const loader = only)
+    if (Loader* const loader = the_loader)
         Q_EMIT loader->waits(QString::fromStdString(what), seconds, most);
 }
 
 }  // namespace
 
 Loader::Loader(QObject* parent) : QObject(parent) {
-    only = this;
+    the_loader = this;
     tell_companion_waits(tell_of_wait);
 }
 
 Loader::~Loader() {
     tell_companion_waits(nullptr);
-    only = nullptr;
+    the_loader = nullptr;
     cancel();
     if (thread_.joinable()) thread_.join();
 }
