@@ -14,6 +14,8 @@ import numpy as np
 sys.path.insert(0, "test/cli")
 from program import dihaptic, session_of
 
+import soak  # program.py adds its folder to the path
+
 
 def first(x, count):
     return np.mean(x[:count]) if len(x) else np.nan
@@ -36,7 +38,7 @@ class Adaptation(unittest.TestCase):
         ran = dihaptic("run", str(file), "--simulate", "--participant", "sim-001", "--out", cls.folder.name + "/out")
         assert ran.returncode == 0, ran.stderr
         session = session_of(cls.folder.name + "/out")
-        made = dihaptic("report", session, "--tables")
+        made = dihaptic("report", session, *soak.TABLES)
         assert made.returncode == 0, made.stderr
         with open(session + "/adaptation.csv", newline="") as table:
             rows = list(csv.DictReader(table))

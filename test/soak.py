@@ -11,6 +11,10 @@ def of(sample, everything):
     return everything if EVERYTHING else sample
 
 
+#: Options of `dihaptic report` where a test looks at its tables: a page takes seconds, and only the soak draws it as well.
+TABLES = of(["--tables"], [])
+
+
 def alone(test):
     """Marks a test, or a class of tests, as part of the soak only."""
     return test if EVERYTHING else None

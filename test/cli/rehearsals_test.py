@@ -13,6 +13,8 @@ import unittest
 
 from program import dihaptic, with_largest_file
 
+import soak  # program.py adds its folder to the path
+
 
 class Rehearsals(unittest.TestCase):
     """Populations of simulated people, in parts and in parallel."""
@@ -50,7 +52,7 @@ class Rehearsals(unittest.TestCase):
         self.assertEqual(run("--participant", "sim-002", "--set", "safety.max_speed_m_s=0.1").returncode, 1)
         (ended,) = glob.glob(out + "/*sim-002/")
         self.assertIn("state: interrupted", pathlib.Path(ended + "session.yaml").read_text())
-        report = dihaptic("report", out, "--tables")
+        report = dihaptic("report", out, *soak.TABLES)
         self.assertEqual(report.returncode, 0, report.stderr)
         self.assertRegex(report.stdout, r"left out: .*sim-002: it ended before its trials were done; dihaptic resume continues it")
         self.assertEqual([row["ppid"] for row in self.rows(out, "population-people.csv")], ["sim-001"])

@@ -14,6 +14,8 @@ import numpy as np
 sys.path.append("test/cli")
 from program import PROGRAM, dihaptic
 
+import soak  # program.py adds its folder to the path
+
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(PROGRAM)), "python"))
 import dihaptic as dh
 
@@ -138,7 +140,7 @@ class Paradigms(unittest.TestCase):
     - { name: after, kind: washout, repeats: 8 }
 """)
         self.assertLess(session.trials.farthest_mm.max(), 200)
-        self.assertEqual(dihaptic("report", str(session.folder), "--tables").returncode, 0)
+        self.assertEqual(dihaptic("report", str(session.folder), *soak.TABLES).returncode, 0)
         curve = dh.load(session.folder).table("adaptation")
         learn = curve[curve.block == "learn"]
         self.assertEqual(set(learn.error_seen), {"yes"})
@@ -183,7 +185,7 @@ class Paradigms(unittest.TestCase):
     - { name: random, kind: perturbed, perturb: turned, repeats: 12 }
     - { name: after, kind: washout, repeats: 4 }
 """)
-        self.assertEqual(dihaptic("report", str(session.folder), "--tables").returncode, 0)
+        self.assertEqual(dihaptic("report", str(session.folder), *soak.TABLES).returncode, 0)
         (fits,) = dh.load(session.folder).table("fits").to_dict("records")
         for window in ["early", "late", "catch", "savings", "rebound"]:
             self.assertTrue(np.isnan(fits[window]), window)

@@ -295,7 +295,7 @@ class Sessions(unittest.TestCase):
         self.trials = self.session / "trials.csv"
         with self.trials.open(newline="") as table:
             self.head, *self.rows = list(csv.reader(table))
-        self.adaptation = self.reported()[1]
+        self.adaptation = self.reported("--tables")[1]
 
     @staticmethod
     def saved(rows):
@@ -303,8 +303,8 @@ class Sessions(unittest.TestCase):
         csv.writer(out, lineterminator="\n").writerows(rows)
         return out.getvalue()
 
-    def reported(self):
-        result = dihaptic("report", str(self.session), "--tables")
+    def reported(self, *options):
+        result = dihaptic("report", str(self.session), *options)
         made = self.session / "adaptation.csv"
         return result, made.read_text() if result.returncode == 0 else ""
 
