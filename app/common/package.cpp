@@ -21,14 +21,17 @@ std::string python_folder() {
 
 Launch python_launch(const std::string& folder, const std::string& module) {
     // other Pythons, such as Anaconda's, lack the package; -I ignores the current folder, the
-    // environment variables and the user's own packages
+    // environment variables and the user's own packages. Until main() says what Ctrl-C does, it
+    // first is ignored, and then ends Python at once; by default, Python would print where it was
+    // while it loaded the package.
     const std::string code_of =
-        "import sys; sys.path.insert(0, sys.argv.pop(1)); from dihaptic._parent import end_with; "
+        "import signal, sys; signal.signal(signal.SIGINT, signal.SIG_DFL); "
+        "sys.path.insert(0, sys.argv.pop(1)); from dihaptic._parent import end_with; "
         "end_with(int(sys.argv.pop(1))); from " +
         module + " import main; sys.exit(main(sys.argv[1:]))";
     return {"/usr/bin/env",
-            {"MPLBACKEND=agg", "/usr/bin/python3", "-I", "-c", code_of, folder,
-             fmt::format("{}", getpid())},
+            {"--ignore-signal=INT", "MPLBACKEND=agg", "/usr/bin/python3", "-I", "-c", code_of,
+             folder, fmt::format("{}", getpid())},
             {Launch::kKept, Launch::kKept, Launch::kKept},
             Launch::kFreshSignals};
 }
@@ -40,6 +43,7 @@ std::optional<int> wait_for_python(Child& python) {
         if (!cli::stop_requested) continue;
         stopping += kStep;
         if (stopping == 1s) kill(python.process(), SIGINT);
+        if (stopping == 30s) kill(python.process(), SIGKILL);
     }
     return python.wait();
 }

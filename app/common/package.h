@@ -18,7 +18,8 @@ Launch python_launch(const std::string& folder, const std::string& module);
 
 /// Waits until Python has ended, and returns its status as Child::wait() does. If the program is to
 /// stop meanwhile, so is Python: by the terminal, which gives both the signal of Ctrl-C, or else,
-/// after a second, by the same signal from here.
+/// after a second, by the same signal from here; and if it has not ended after half a minute, it is
+/// killed.
 std::optional<int> wait_for_python(Child& python);
 
 }  // namespace dihaptic::app

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -76,6 +79,32 @@ def tell(why: Error) -> None:
 def shorten_warnings() -> None:
     """From now on, a warning is printed as the program's commands print it: without the line of Python that gave it."""
     warnings.formatwarning = lambda message, *_: f"{message}\n"
+
+
+@contextmanager
+def interruptible() -> Iterator[None]:
+    """Ctrl-C within this raises KeyboardInterrupt once, even if a library makes an error of its own of it.
+
+    pandas, for instance, would report that a file cannot be read. A second Ctrl-C would interrupt the orderly end, and
+    leave a pool of processes waiting for itself. For commands: it needs Python's main thread.
+    """
+    came = False
+
+    def interrupt(*_: object) -> None:
+        nonlocal came
+        if not came:
+            came = True
+            raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGINT, interrupt)
+    try:
+        yield
+    except Exception:
+        if came:
+            raise KeyboardInterrupt from None
+        raise
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 class NotThere(Error, KeyError):

@@ -247,19 +247,35 @@ class Calibration(unittest.TestCase):
                 self.assertIn(what, wrong.stderr)
         self.assertIn("lab0 (24), lab1 (24)", out.read_text())
 
-    def test_ends_when_it_is_told_to(self):
+    def interrupted(self, after, interrupt):
+        """How the command ends, what it says, and that it writes nothing, if `interrupt` is called after this time."""
         out = Path(self.folder.name, "never.yaml")
         many = [shutil.copy(file, Path(self.folder.name, f"{n}-{file.name}")) for n in range(20) for file in self.files]
         command = [os.environ.get("DIHAPTIC", "build/release/dihaptic"), "calibrate-population", *map(str, many)]
+        running = subprocess.Popen(
+            [*command, "--out", str(out)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+        )
+        time.sleep(after)
+        interrupt(running)
+        told = running.communicate(timeout=60)[1]
+        self.assertFalse(out.exists())
+        return running.returncode, told
+
+    def test_ends_when_it_is_told_to(self):
         for name in ("SIGTERM", "SIGINT"):
             with self.subTest(name):
-                running = subprocess.Popen([*command, "--out", str(out)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-                time.sleep(3)
-                running.send_signal(getattr(signal, name))
-                printed, told = running.communicate(timeout=60)
-                self.assertEqual(running.returncode, 130, printed)
+                ended, told = self.interrupted(3, lambda running: running.send_signal(getattr(signal, name)))
+                self.assertEqual(ended, 130, told)
                 self.assertIn("interrupted: nothing more was written", told)
-                self.assertFalse(out.exists())
+
+    def test_ctrl_c_is_not_taken_for_a_fault(self):
+        # a terminal sends it to the program and to Python, which first loads its packages, and then reads the files
+        for after in (0.4, 0.6, 0.8, 1, 1.2):
+            with self.subTest(after=after):
+                ended, told = self.interrupted(after, lambda running: os.killpg(running.pid, signal.SIGINT))
+                self.assertIn(ended, (1, 130), told)
+                self.assertIn("interrupted", told)
+                self.assertEqual(told.count("\n"), 1, told)
 
 
 class Learner(unittest.TestCase):

@@ -7,7 +7,7 @@ import os
 import sys
 from pathlib import Path
 
-from ..errors import Error, error, tell
+from ..errors import Error, error, interruptible, tell
 from . import LIMITS, STRUCTURES, Calibration, calibrate_population, hierarchy, leave_one_out
 
 
@@ -24,16 +24,17 @@ def main(words: list[str]) -> int:
     parser.add_argument("--compare", action="store_true")
     asked = parser.parse_args(words)
     try:
-        _check_place(asked.out)
-        found = calibrate_population(asked.files, _show)
-        for group in found.groups:
-            print(f"{group.name}: {group.people} people, {group.rotation.shape[1]} trials")
-        for what in [*found.left_out, *([found.warning] if found.warning else [])]:
-            print(f"warning: {what}", file=sys.stderr)
-        print(found.table.to_string(index=False, float_format=lambda value: f"{value:.4g}"))
-        _save(found, asked.out)
-        if asked.compare:
-            _compare(found)
+        with interruptible():
+            _check_place(asked.out)
+            found = calibrate_population(asked.files, _show)
+            for group in found.groups:
+                print(f"{group.name}: {group.people} people, {group.rotation.shape[1]} trials")
+            for what in [*found.left_out, *([found.warning] if found.warning else [])]:
+                print(f"warning: {what}", file=sys.stderr)
+            print(found.table.to_string(index=False, float_format=lambda value: f"{value:.4g}"))
+            _save(found, asked.out)
+            if asked.compare:
+                _compare(found)
     except KeyboardInterrupt:
         print("interrupted: nothing more was written", file=sys.stderr)
         return 130

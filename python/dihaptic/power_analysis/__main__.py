@@ -8,7 +8,7 @@ import re
 import sys
 from pathlib import Path
 
-from ..errors import Error, shorten_warnings, tell
+from ..errors import Error, interruptible, shorten_warnings, tell
 from . import power
 
 
@@ -33,11 +33,12 @@ def main(words: list[str]) -> int:
     name = path.parent.name if path.name == "pool" else f"{path.stem}_{asked.seed}"
     out = Path(asked.out or f"power/{name}")
     try:
-        result = power(
-            asked.path, asked.effect, asked.n, people=asked.people, draws=asked.draws, test=asked.test, alpha=asked.alpha,
-            ratio=asked.ratio, attrition=asked.attrition, population=asked.population, seed=asked.seed, jobs=asked.jobs, out=out,
-        )  # fmt: skip
-        page = result.save(out / _in_a_name(asked.effect))
+        with interruptible():
+            result = power(
+                asked.path, asked.effect, asked.n, people=asked.people, draws=asked.draws, test=asked.test, alpha=asked.alpha,
+                ratio=asked.ratio, attrition=asked.attrition, population=asked.population, seed=asked.seed, jobs=asked.jobs, out=out,
+            )  # fmt: skip
+            page = result.save(out / _in_a_name(asked.effect))
     except KeyboardInterrupt:
         print("interrupted: the people who have finished are kept, and the same command continues", file=sys.stderr)
         return 130

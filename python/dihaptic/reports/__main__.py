@@ -7,7 +7,7 @@ import os
 import sys
 from typing import Any
 
-from ..errors import Error, shorten_warnings, tell
+from ..errors import Error, interruptible, shorten_warnings, tell
 from . import write_page
 
 _HELP = """Make report.html and its figures from the tables that are there
@@ -26,13 +26,14 @@ def main(words: list[str]) -> int:
         return 0 if words else 2
     shorten_warnings()
     try:
-        told: dict[str, Any] = {} if sys.stdin is None or sys.stdin.isatty() else json.loads(sys.stdin.buffer.read() or "{}")
-        show = _Progress()
-        page = write_page(
-            words if len(words) > 1 else words[0], told.get("out", ""), told, jobs=os.cpu_count() or 1,
-            progress=show.title,
-        )  # fmt: skip
-        show.end()
+        with interruptible():
+            told: dict[str, Any] = {} if sys.stdin is None or sys.stdin.isatty() else json.loads(sys.stdin.buffer.read() or "{}")
+            show = _Progress()
+            page = write_page(
+                words if len(words) > 1 else words[0], told.get("out", ""), told, jobs=os.cpu_count() or 1,
+                progress=show.title,
+            )  # fmt: skip
+            show.end()
     except json.JSONDecodeError:
         print("The description on the standard input is not JSON. Without one, add </dev/null.", file=sys.stderr)
         return 2
