@@ -36,8 +36,9 @@ void run_grasp(GraspOptions options) {
         for (size_t i = 0; i < setups.size(); ++i) {
             const measure::GraspFigures figures =
                 measure::bench_grasp(setups[i], [&](const std::string& what, double share) {
-                    line.show((static_cast<double>(i) + share) / static_cast<double>(setups.size()),
-                              what);
+                    line.show_or_stop(
+                        (static_cast<double>(i) + share) / static_cast<double>(setups.size()),
+                        what);
                 });
             out += (i > 0 ? "\n\n" : "") + (options.json ? to_json(figures) : figure_text(figures));
         }

@@ -383,7 +383,7 @@ void collect(const CollectOptions& options) {
         double done = 0;
         for (const auto& [key, session] : people) {
             collection.add(key, session);
-            line.show(++done / static_cast<double>(people.size()));
+            line.show_or_stop(++done / static_cast<double>(people.size()));
         }
     }
     const std::string out = options.out.empty() ? options.folders.front() : options.out;

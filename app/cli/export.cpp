@@ -29,7 +29,7 @@ void to_bids(const recording::SessionFolder& session, const Options& options) {
     {
         ProgressLine line("writing motion");
         exported = analysis::export_bids(session, options.data_set,
-                                         [&](double share) { line.show(share); });
+                                         [&](double share) { line.show_or_stop(share); });
     }
     print(exported.changed);
     tell_log(exported.log);
@@ -71,7 +71,7 @@ void to_csv(const recording::SessionFolder& session, const Options& options) {
     {
         ProgressLine line("writing curves");
         wrong = analysis::export_curves(session, split(options.names), file,
-                                        [&](double share) { line.show(share); });
+                                        [&](double share) { line.show_or_stop(share); });
     }
     tell_log(wrong);
     fmt::print("written: {}\n", file);

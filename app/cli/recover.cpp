@@ -18,7 +18,8 @@ void add_recover(CLI::App& app) {
         analysis::Recovery recovery;
         {
             ProgressLine line("writing session.nwb");
-            recovery = analysis::recover_session(folder, [&](double share) { line.show(share); });
+            recovery =
+                analysis::recover_session(folder, [&](double share) { line.show_or_stop(share); });
         }
         print(recovery.warnings);
         const analysis::SessionFigures& figures = recovery.figures;

@@ -73,7 +73,7 @@ analysis::ReportResult write_tables_of(const ReportOptions& options) {
             const std::string folder =
                 is_study(path) ? sessions_of({path, options.rehearsed}) : path;
             result.add(analysis::write_tables(
-                folder, [&](double share) { line.show((before + share) / paths); },
+                folder, [&](double share) { line.show_or_stop((before + share) / paths); },
                 session::counts_in_study));
             ++before;
         }

@@ -250,7 +250,7 @@ std::vector<TextTable> tables_of(const study::StudyFile& study, const StudySessi
         const auto front = front_of(session, group_of(study, session.member, data.reveal_groups));
         for (const TextTable& table : tables_of_parts(session))
             tables[table.name].add(front, table);
-        line.show(++done / static_cast<double>(sessions.complete().size()));
+        line.show_or_stop(++done / static_cast<double>(sessions.complete().size()));
     }
     line.clear();
     std::vector<TextTable> out{participants(study, sessions.roster(), data.reveal_groups)};

@@ -56,7 +56,8 @@ void export_bids(const StudyData& data, const std::string& data_set) {
         for (const std::string& part : complete.parts) {
             check_recording(part, data);
             ProgressLine line("adding sessions");
-            added += add(part, data_set, [&](double share) { line.show((done + share) / all); });
+            added +=
+                add(part, data_set, [&](double share) { line.show_or_stop((done + share) / all); });
         }
         ++done;
     }

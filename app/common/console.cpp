@@ -54,6 +54,11 @@ void ProgressLine::show(double share, const std::string& what) {
     say("\r" + line);
 }
 
+void ProgressLine::show_or_stop(double share, const std::string& what) {
+    if (stop_requested) throw Interrupted{};
+    show(share, what);
+}
+
 void ProgressLine::clear() {
     if (terminal_ && width_ > 0) say(fmt::format("\r{:{}}\r", "", width_));
     width_ = 0;
@@ -154,6 +159,9 @@ int run_program(CLI::App& app, int argc, char** argv) {
     } catch (const Error& e) {
         fmt::print(stderr, "{}\n", e.what());
         return stop_requested ? kFailed : kBadInput;  // the user gave up waiting
+    } catch (const Interrupted&) {
+        fmt::print(stderr, "interrupted: nothing more was written\n");
+        return kFailed;
     } catch (const std::filesystem::filesystem_error& e) {
         fmt::print(stderr, "{}: error: {}. Check the file and its permissions.\n",
                    e.path1().string(), e.code().message());

@@ -231,5 +231,72 @@ class Interruptions(unittest.TestCase):
             self.assertEqual(dihaptic("replay", folder).returncode, 0)
 
 
+class CtrlC(unittest.TestCase):
+    """Commands that move no device: Ctrl-C ends each of them soon, and the files that were there stay as they were."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.out = folder.name
+        cls.people = cls.out + "/r"
+        dihaptic("rehearse", "experiments/visuomotor-rotation.yaml", "--people", str(soak.of(2, 30)), "--out", cls.people)
+        dihaptic("report", cls.people, "--tables")
+
+    def files(self):
+        return {file: file.read_bytes() for file in pathlib.Path(self.out).rglob("*") if file.is_file()}
+
+    def interrupted(self, *words, begun, told="interrupted: nothing more was written"):
+        """Interrupts a command, with the Python that it starts, once it has shown a share of its work that matches `begun`."""
+        before = self.files()
+        process = subprocess.Popen([PROGRAM, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                   start_new_session=True)
+        said = ""
+        while line := process.stderr.readline():
+            said += line
+            if re.search(begun, line):
+                os.killpg(process.pid, signal.SIGINT)
+                break
+        at = time.monotonic()
+        said += process.communicate(timeout=patient(60))[1]
+        self.assertEqual(process.returncode, 1, said)
+        self.assertIn(told, said)
+        self.assertNotIn("Traceback", said)
+        self.assertLess(time.monotonic() - at, patient(10))
+        self.assertEqual(self.files(), before)
+
+    def test_ends_measuring(self):
+        self.interrupted("bench", "grasp", begun="%")
+
+    @soak.alone
+    def test_ends_exporting(self):
+        dihaptic("run", "experiments/visuomotor-rotation.yaml", "--simulate", "--participant", "sim-001", "--out", self.out + "/s")
+        session = session_of(self.out + "/s")
+        self.interrupted("export", session, "--bids", self.out + "/bids", begun="%")
+        self.interrupted("export", session, "--csv", "grip_force", "--out", self.out + "/c.csv", begun="%")
+        self.interrupted("recover", session, begun="%")
+
+    @soak.alone
+    def test_ends_reading_many_sessions(self):
+        self.interrupted("collect", self.people, begun="%")
+        self.interrupted("report", self.people, "--tables", begun="%")
+
+    def test_ends_drawing_a_page(self):
+        for wait in soak.of([0.3, 2], [0.1 * i for i in range(1, 40)]):
+            with self.subTest(wait):
+                process = subprocess.Popen([PROGRAM, "report", self.people], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                           text=True, start_new_session=True)
+                while line := process.stderr.readline():
+                    if "100 %" in line:
+                        break
+                time.sleep(wait)
+                os.killpg(process.pid, signal.SIGINT)
+                said = process.communicate(timeout=patient(60))[1]
+                self.assertNotIn("Traceback", said)
+                if process.returncode != 0:  # on a fast machine, the page may be there already
+                    self.assertEqual(process.returncode, 1, said)
+                    self.assertIn("it was interrupted. Run the same command again.", said)
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -92,7 +92,13 @@ def _save_all(made: list[Drawn], data: Data, folder: Path, jobs: int) -> Iterato
         return
     # forked children already have the data, so nothing is read again, or passed on
     with ProcessPoolExecutor(jobs, get_context("fork"), _take, (save_one, os.getpid())) as children:
-        yield from children.map(_do, range(len(made)))
+        # a child that Ctrl-C meets before it ignores it would go on as a second parent
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            titles = children.map(_do, range(len(made)))
+        finally:
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+        yield from titles
 
 
 _work: list[Callable[[int], str]] = []
