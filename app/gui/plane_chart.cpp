@@ -61,11 +61,10 @@ QRectF PlaneChart::shown_bounds(const QRectF& area) const {
         out.adjust(-x, -y, x, y);
     };
     if (!alike_) {
-        // forces begin at zero
-        out = QRectF(
-            QPointF(std::min(0.0, out.left()), std::min(0.0, out.top())),
-            QPointF(std::max(least_range_, out.right()), std::max(least_range_, out.bottom())));
-        return out;
+        // forces begin at zero, and the largest is not drawn on the edge
+        const auto end = [&](double largest) { return 1.05 * std::max(least_range_, largest); };
+        return {QPointF(std::min(0.0, out.left()), std::min(0.0, out.top())),
+                QPointF(end(out.right()), end(out.bottom()))};
     }
     widen(1.1 * std::max(least_range_, out.width()), 1.1 * std::max(least_range_, out.height()));
     const double ratio = area.width() / std::max(1.0, area.height());

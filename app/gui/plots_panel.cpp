@@ -13,7 +13,8 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr size_t kGrips = 300;         // samples of grip against load: three seconds
+constexpr size_t kGrips = 1000;        // samples of grip against load: ten seconds
+constexpr size_t kNewGrips = 100;      // the last second of them, which is drawn strongly
 constexpr size_t kLongestPath = 3000;  // points of a path
 constexpr double kStep = 0.5;          // shortest distance between points of a path [mm]
 
@@ -25,6 +26,12 @@ QColor screen_colour(const Vec3& linear) {
     return QColor::fromRgbF(static_cast<float>(srgb(linear.x())),
                             static_cast<float>(srgb(linear.y())),
                             static_cast<float>(srgb(linear.z())));
+}
+
+/// The colour of what is past.
+QColor paler(QColor colour) {
+    colour.setAlpha(90);
+    return colour;
 }
 
 size_t finger_that_reaches(const session::Plan& plan) {
@@ -129,11 +136,18 @@ void PlotsPanel::add(const session::CurveSample& sample) {
 }
 
 void PlotsPanel::show_frame(const frame::Frame& frame) {
-    if (ratio_ != nullptr)
-        ratio_->set({{{grips_.begin(), grips_.end()}, legible(palette::kGrip), 1.8, ""}});
+    if (ratio_ != nullptr) show_grips();
     if (path_ == nullptr || finger_ >= frame.fingers.size()) return;
     follow_path(frame);
     show_path(frame);
+}
+
+void PlotsPanel::show_grips() {
+    const QColor colour = legible(palette::kGrip);
+    const auto newest =
+        grips_.end() - static_cast<std::ptrdiff_t>(std::min(grips_.size(), kNewGrips));
+    ratio_->set({{{grips_.begin(), grips_.end()}, paler(colour), 1.5, ""},
+                 {{newest, grips_.end()}, colour, 2, tr("last second")}});
 }
 
 void PlotsPanel::follow_path(const frame::Frame& frame) {
@@ -168,9 +182,7 @@ void PlotsPanel::show_path(const frame::Frame& frame) {
         return out;
     };
     const QColor colour = names_[finger_].colour;
-    QColor pale = colour;
-    pale.setAlpha(90);
-    std::vector<PlaneChart::Line> lines{{line(before_), pale, 1.5, ""},
+    std::vector<PlaneChart::Line> lines{{line(before_), paler(colour), 1.5, ""},
                                         {line(hand_), colour, 2, tr("hand")}};
     const bool differs =
         !hand_.empty() && !shown_.empty() && (hand_.back() - shown_.back()).norm() > 2 * kStep;

@@ -38,6 +38,7 @@ class PlotsPanel : public QWidget {
 
   private:
     void make_charts();
+    void show_grips();
     void follow_path(const frame::Frame& frame);
     void show_path(const frame::Frame& frame);
 

@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kOrbit = 0.006;     // [rad/pixel]
 constexpr double kStill = 3;         // a pointer movement up to this length counts as a click [px]
-constexpr double kCoarse = 2.0 / 3;  // detail of pictures when drawing is slow
+constexpr double kCoarse = 2.0 / 3;  // detail of moving pictures when drawing is slow
+constexpr int kUntilStill = 200;     // time without a new picture after which nothing moves [ms]
 constexpr size_t kPath = 300;        // length of the path: five seconds [pictures]
 
 }  // namespace
@@ -39,6 +40,12 @@ SceneWidget::SceneWidget(QWidget* parent)
         if (shown_.sequence == presented_) return;
         presented_ = shown_.sequence;
         Q_EMIT presented(presented_);
+    });
+    still_.setSingleShot(true);
+    still_.setInterval(kUntilStill);
+    connect(&still_, &QTimer::timeout, this, [this] {
+        is_still_ = true;
+        update();
     });
     held_->set(tr("Hand held"), tr("It does not follow the mouse. H moves it again."),
                Sign::paused);
@@ -261,11 +268,6 @@ void SceneWidget::set_patch(const std::optional<view::PatchLook>& patch) {
 
 void SceneWidget::set_fine(bool fine) {
     fine_ = fine;
-    if (view_) {
-        makeCurrent();
-        view_->set_detail(fine ? 1 : kCoarse);
-        doneCurrent();
-    }
     update();
 }
 
@@ -275,15 +277,23 @@ void SceneWidget::make_view() {
     if (!fine_ && view::is_software(renderer)) {
         fine_ = false;
         Q_EMIT draws_in_software(
-            tr("there is no graphics card (%1): the scene is drawn with two thirds of the window's "
-               "pixels in each direction. View > Fine pictures draws all pixels, more slowly.")
+            tr("there is no graphics card (%1): while something moves, the scene is drawn with two "
+               "thirds of the window's pixels in each direction. View > Fine pictures draws all "
+               "pixels, more slowly.")
                 .arg(QString::fromStdString(renderer)));
     }
-    if (fine_ == false) view_->set_detail(kCoarse);
+}
+
+/// Draws all pixels once nothing moves any more.
+void SceneWidget::choose_detail() {
+    const bool all = std::exchange(is_still_, false) || fine_ != false;
+    view_->set_detail(all ? 1 : kCoarse);
+    if (!all) still_.start();
 }
 
 void SceneWidget::draw_scene() {
     if (!view_) make_view();
+    choose_detail();
     const std::vector<Vec3> path(path_.begin(), path_.end());
     view::Overlays overlays;
     overlays.handles = layers_.handles;

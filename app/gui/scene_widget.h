@@ -5,6 +5,7 @@
 #include <QElapsedTimer>
 #include <QLabel>
 #include <QOpenGLWidget>
+#include <QTimer>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -74,8 +75,8 @@ class SceneWidget : public QOpenGLWidget {
     };
     void set_layers(const Layers& layers);
     void set_patch(const std::optional<view::PatchLook>& patch);
-    /// Sets whether pictures are drawn at full resolution, or at two thirds of it in each
-    /// direction. The default is full resolution if there is a graphics card.
+    /// Sets whether pictures are drawn at full resolution, or at two thirds of it in each direction
+    /// while something moves. The default is full resolution if there is a graphics card.
     void set_fine(bool fine);
     const Layers& layers() const { return layers_; }
     /// The frame that the last picture showed.
@@ -145,6 +146,7 @@ class SceneWidget : public QOpenGLWidget {
     void show_help();
     void place_labels();
     void make_view();
+    void choose_detail();
     void draw_scene();
     display::Display seen_display();
     /// To be called when a picture has appeared on the screen: the next picture is for the other
@@ -171,6 +173,8 @@ class SceneWidget : public QOpenGLWidget {
     Layers layers_;
     std::optional<view::PatchLook> patch_;
     std::optional<bool> fine_;  // if unset, the renderer decides
+    QTimer still_;              // runs out when nothing has moved for a while
+    bool is_still_ = false;     // whether the next picture shows what the last one showed
     std::vector<view::Workspace> workspaces_;
     servo::WorkspaceTurn turn_;
     std::deque<Vec3> path_;

@@ -106,8 +106,9 @@ void Shelf::draw_next() {
             draw_next();
         });
         drawing_->setStandardErrorFile(QProcess::nullDevice());
-        // the picture is not urgent: the window and other programs have priority
-        drawing_->setChildProcessModifier([] { setpriority(PRIO_PROCESS, 0, 19); });
+        // the picture is not urgent, so the window and other programs have priority; at 19, it
+        // would take minutes on a busy computer
+        drawing_->setChildProcessModifier([] { setpriority(PRIO_PROCESS, 0, 10); });
         drawing_->start(QCoreApplication::applicationDirPath() + "/dihaptic",
                         {"picture", file, "--size", "480x300", "-o", picture});
         return;

@@ -36,7 +36,7 @@ void TuningPanel::add(QFormLayout* form, double frame::Knobs::*knob, const frame
     box->setDecimals(std::max(0, static_cast<int>(std::ceil(-std::log10(is.step)))));
     if (is.unit != std::string("1")) box->setSuffix(QString(" ") + is.unit);
     box->setKeyboardTracking(false);  // a number takes effect once completely typed
-    box->setToolTip(is.what);
+    box->setToolTip(QString(is.what).replace("NaN", tr("automatic")));
     form->addRow(is.label, box);
     connect(box, &QDoubleSpinBox::valueChanged, this, [this, knob, is](double value) {
         turn(knob, is, value < is.least ? kUnmeasured : value);

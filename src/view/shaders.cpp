@@ -105,7 +105,8 @@ out vec4 colour;
 
 uniform vec3 eye;
 uniform vec3 albedo;
-uniform float alpha;
+uniform float alpha;       // where one looks straight at the surface
+uniform float rim;         // alpha where one looks along it
 uniform float gloss;       // gloss of the surface's coat, 0 to 1
 uniform float grid;        // how dark the lines on its upper side are
 uniform float fade;        // beyond this distance from the middle it is the background; 0: never [m]
@@ -238,7 +239,8 @@ void main() {
 #endif
     if (fade > 0.0)
         out_linear = mix(out_linear, background(), smoothstep(0.3 * fade, fade, length(p_W.xy - middle.xy)));
-    colour = vec4(encode(out_linear), alpha);
+    float grazing = 1.0 - max(dot(n, v), 0.0);
+    colour = vec4(encode(out_linear), mix(alpha, rim, grazing * grazing));
 }
 )";
 

@@ -29,6 +29,16 @@ class Looks(Window):
         self.quit()
         self.assertIn("dark=true", (pathlib.Path(self.folder.name) / ".config/dihaptic/dihaptic.conf").read_text())
 
+    def test_draws_all_pixels_when_nothing_moves(self):
+        self.open()
+        still = self.pixels(0, 30, 980, 700).astype(int)
+        self.key("alt+v", "i")  # View, Fine pictures
+        self.settle()
+        self.screenshot("fine")
+        fine = self.pixels(0, 30, 980, 700).astype(int)
+        self.assertLess(np.abs(fine - still).mean(), 0.01)
+        self.assertGreater(np.abs(fine[:, 1:] - fine[:, :-1]).max(), 60)  # an edge between two pixels
+
     @soak.alone
     def test_draws_what_is_not_to_be_seen_in_the_world(self):
         scene = pathlib.Path("scenes/tools.yaml").read_text().replace("../meshes", os.getcwd() + "/meshes")

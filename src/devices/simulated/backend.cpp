@@ -93,7 +93,7 @@ std::vector<frame::DeviceInfo> infos(const std::vector<Options>& options, const 
     std::vector<frame::DeviceInfo> out;
     for (const Options& option : options) {
         frame::DeviceInfo info;
-        info.model = std::string("simulated ") + std::string(enum_name(option.preset));
+        info.model = model_of(option.preset);
         info.serial = option.serial;
         info.simulated = true;
         info.peak_force = option.peak_force;

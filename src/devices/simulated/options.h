@@ -22,6 +22,11 @@ enum class Preset { plant, premium_1_0, touch, sigma_7 };
 constexpr auto enum_names(Preset) {
     return std::array{"plant", "premium_1_0", "touch", "sigma_7"};
 }
+/// What messages, recordings and the window call the device.
+constexpr const char* model_of(Preset preset) {
+    return std::array{"simulated ideal device", "simulated Premium 1.0", "simulated Touch",
+                      "simulated sigma.7"}[static_cast<size_t>(preset)];
+}
 
 /// point: a single mass at the endpoint, equal along all axes. phantom: the links and joints of a
 /// Premium.

@@ -189,7 +189,7 @@ TEST(Plan, WarnsOfTurningStiffnessThatTheLoopCannotHold) {
     EXPECT_NE(files.messages().find(
                   "warning: coupling.turn_stiffness: 50 N*m/rad is above 40 "
                   "N*m/rad (2 b / T), the highest stiffness at which the hand's damping of 0.02 "
-                  "N*m*s/rad is certain to keep simulated sigma_7 calm"),
+                  "N*m*s/rad is certain to keep simulated sigma.7 calm"),
               std::string::npos)
         << files.messages();
 }
@@ -218,7 +218,7 @@ TEST(Plan, WarnsOfStiffnessThatTheLoopCannotHold) {
         files.messages().find(
             "warning: coupling.stiffness: 9000 N/m is above 6000 N/m (2 b "
             "/ T), the highest stiffness at which the hand's damping of 3 N*s/m is certain to "
-            "keep simulated plant calm"),
+            "keep simulated ideal device calm"),
         std::string::npos)
         << files.messages();
     files.experiment =
@@ -256,7 +256,7 @@ TEST(Plan, SaysWhichWeightsAndSurfacesADeviceCannotRender) {
     std::string said;
     for (const Problem& problem : diagnostics.problems()) said += problem.text() + "\n";
     const size_t for_long = said.find("can sustain");
-    const size_t at_most = said.find("8.5 N that simulated premium_1_0 gives at most");
+    const size_t at_most = said.find("8.5 N that simulated Premium 1.0 gives at most");
     ASSERT_NE(for_long, std::string::npos) << said;
     ASSERT_NE(at_most, std::string::npos) << said;
     // W / (2 mu) and W / 2 together, calculated by hand
@@ -425,8 +425,8 @@ INSTANTIATE_TEST_SUITE_P(
             "g can withstand: about 150 N*s/m"},
         Bad{"a force limit beyond the device's",
             [](Files& f) { f.experiment += "settings: {safety: {max_force_N: 20}}\n"; },
-            "experiment.yaml:3: warning: safety.max_force: 20 N is more than simulated plant can "
-            "give: 8.5 N"},
+            "experiment.yaml:3: warning: safety.max_force: 20 N is more than simulated ideal "
+            "device can give: 8.5 N"},
         Bad{"a dead-man switch that no finger has",
             [](Files& f) { f.experiment += "settings: {safety: {dead_man_finger: toe}}\n"; },
             "experiment.yaml:3: error: safety.dead_man_finger: the scene has no finger 'toe'"},

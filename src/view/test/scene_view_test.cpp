@@ -445,6 +445,29 @@ TEST(SceneView, DrawsTargets) {
     EXPECT_NE(with.rgb, without.rgb);
 }
 
+/// Around the block, a target hides little of it, however large it is; its rim remains visible.
+TEST(SceneView, DrawsALargeTargetAsABubble) {
+    constexpr int kWidth = 96, kHeight = 64;
+    Held held;
+    const Camera camera{"", {0, -0.4, 0.07}, {0, 0, 0.07}, 0.6};
+    const auto changed = [&](double radius) {
+        held.frame.task.targets.clear();
+        const Image without = picture(held.scene, held.frame, camera, kWidth, kHeight);
+        held.frame.task.targets.push_back({0, {0, 0, 0.07}, radius});
+        const Image with = picture(held.scene, held.frame, camera, kWidth, kHeight);
+        std::vector<int> out;  // of red, along the middle row
+        for (int x = 0; x < kWidth; ++x) {
+            const auto i = static_cast<size_t>(3 * (kHeight / 2 * kWidth + x));
+            out.push_back(std::abs(with.rgb[i] - without.rgb[i]));
+        }
+        return out;
+    };
+    const std::vector<int> small = changed(0.03), large = changed(0.09);
+    EXPECT_GT(small[kWidth / 2], 30);
+    EXPECT_LT(large[kWidth / 2], small[kWidth / 2] / 2);
+    EXPECT_GT(std::ranges::max(large), 1.4 * large[kWidth / 2]);
+}
+
 TEST(SceneView, DrawsThePatchInItsCorner) {
     const scene::Scene scene = on_table({});
     constexpr int kWidth = 200, kHeight = 100, kEdge = 20;
