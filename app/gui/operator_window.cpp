@@ -316,7 +316,7 @@ void OperatorWindow::move_hand(double h) {
     if (frame.sequence < 0) return;
     mouse_->set_grip(frame.grip_force);
     mouse_->squeeze(scene_->keys(), std::min(h, kLongestStep));
-    runner.plan().mouse->follow(mouse_->goal(), seconds(frame.time));
+    runner.plan().mouse->follow(mouse_->goal());
 }
 
 void OperatorWindow::show_participant_window(bool shown) {

@@ -13,7 +13,6 @@ MouseDriver::MouseDriver(const HandSpec& spec, const std::vector<std::string>& f
       start_{spec.centre, spec.aperture},
       goal_(start_) {
     transit_.from.x = transit_.goal = coordinates(goal_);
-    now_.publish(transit_);
 }
 
 MouseDriver::Coordinates MouseDriver::coordinates(const Posture& posture) {
@@ -22,13 +21,10 @@ MouseDriver::Coordinates MouseDriver::coordinates(const Posture& posture) {
     return x;
 }
 
-void MouseDriver::follow(const Posture& goal, double t) noexcept {
+void MouseDriver::follow(const Posture& goal) noexcept {
     goal_ = goal;
     goal_.aperture = std::max(kTightest, goal.aperture);
-    transit_.from = transit_.at(t);
-    transit_.start = t;
-    transit_.goal = coordinates(goal_);
-    now_.publish(transit_);
+    wanted_.publish(coordinates(goal_));
 }
 
 MouseDriver::Motion MouseDriver::Transit::at(double t) const noexcept {
@@ -41,7 +37,8 @@ MouseDriver::Motion MouseDriver::Transit::at(double t) const noexcept {
 }
 
 FingerTarget MouseDriver::do_target(int finger, double t) const noexcept {
-    const Motion hand = now_.read().at(t);
+    if (wanted_.is_new()) transit_ = {t, transit_.at(t), wanted_.read()};
+    const Motion hand = transit_.at(t);
     const FingerPlace& place = fingers_[static_cast<size_t>(finger)];
     const Quat yaw(Eigen::AngleAxisd(hand.x[4], Vec3::UnitZ()));
     const Quat R = yaw * Quat(Eigen::AngleAxisd(hand.x[5], Vec3::UnitY()));

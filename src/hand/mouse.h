@@ -4,7 +4,9 @@
 //
 //     x(t) = g + (e + (v + w e) s) exp(-w s),    e = x(t0) - g,  s = t - t0,  w = 1 / kFollow
 //
-// for each coordinate x of the posture, where g is the goal set at t0.
+// for each coordinate x of the posture, where t0 is the first tick that knows the goal g. It begins
+// there, and not when the event arrived, because the hand must not jump from where it was sent in
+// the ticks between.
 #pragma once
 
 #include "base/latest.h"
@@ -33,10 +35,9 @@ class MouseDriver final : public Driver {
     /// difference from those of the hand. Throws Error like finger_places().
     MouseDriver(const HandSpec& spec, const std::vector<std::string>& fingers);
 
-    /// Moves the hand to `goal` from time `t` on. Must be called from a single thread other than
-    /// the servo's. `t` is the time of the newest Frame known to the caller; targets that the servo
-    /// has computed since then hardly change.
-    void follow(const Posture& goal, double t) noexcept;
+    /// Moves the hand to `goal` from the next tick on. Must be called from a single thread other
+    /// than the servo's.
+    void follow(const Posture& goal) noexcept;
     const Posture& goal() const { return goal_; }
 
     /// The session continues until it is stopped, but a duration is required: that of the longest
@@ -64,8 +65,9 @@ class MouseDriver final : public Driver {
     std::vector<Phase> phases_;
     Posture start_;
     Posture goal_;
-    Transit transit_;              // the value set by follow()
-    mutable Latest<Transit> now_;  // read by the servo during ticks
+    /// From the window's thread to the servo's.
+    mutable Latest<Coordinates> wanted_{Coordinates::Zero()};
+    mutable Transit transit_;  ///< the servo's
 };
 
 }  // namespace dihaptic::hand

@@ -43,7 +43,7 @@ class SessionRunnerTest : public ::testing::Test {
         ASSERT_TRUE(answer_until([&] { return now() > 0.1; }));
         hand::Posture goal = runner_.plan().mouse->goal();
         goal.aperture = 0.034;
-        runner_.plan().mouse->follow(goal, now());
+        runner_.plan().mouse->follow(goal);
         answer_for(700);
         ASSERT_GT(runner_.read_frame().grip_force, 0.3);
     }

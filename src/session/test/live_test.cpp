@@ -56,7 +56,7 @@ class Desk {
     void squeeze(double aperture) {
         hand::Posture goal = plan.mouse->goal();
         goal.aperture = aperture;
-        plan.mouse->follow(goal, now());
+        plan.mouse->follow(goal);
     }
     /// Lifts at 5 cm/s of session time. Each step waits until the previous one was made: otherwise,
     /// if a busy machine makes the session lose ticks, the hand would move on and be torn off the
@@ -66,7 +66,7 @@ class Desk {
         const double end = goal.centre.z() + height;
         while (goal.centre.z() < end) {
             goal.centre.z() = std::min(end, goal.centre.z() + 0.0005);
-            plan.mouse->follow(goal, now());
+            plan.mouse->follow(goal);
             at(now() + 0.01);
         }
     }
