@@ -229,7 +229,7 @@ class Nwb(unittest.TestCase):
         # a script has no species
         self.assertNotIn("species", self.file["general/subject"])
         self.assertTrue(self.text("general/subject/description").startswith("Simulated: the file's script moved the hand."))
-        self.assertIn("premium", self.file["general/devices/thumb"].attrs["description"])
+        self.assertEqual("simulated Premium 1.0", self.file["general/devices/thumb"].attrs["description"])
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ struct DeviceColumn {
 
 constexpr int kStatus = 12;        // width of the column [characters]
 constexpr int kLoadBar = 48;       // width of the column [pixels]
-constexpr int kWidestTable = 450;  // the table takes no more room from the panel beside it [pixels]
+constexpr int kWidestTable = 400;  // the table takes no more room from the panel beside it [pixels]
 
 QString words(uint32_t status) {
     return status == 0 ? QObject::tr("OK") : QString::fromStdString(dihaptic::words(status));

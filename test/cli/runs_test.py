@@ -27,7 +27,7 @@ class Commands(unittest.TestCase):
         with tempfile.TemporaryDirectory() as out:
             result = dihaptic("run", "scenes/block-on-table.yaml", "--out", out, "--set", "safety.max_speed_m_s=0.01")
             self.assertEqual(result.returncode, 1, result.stdout)
-            told = (r"force has been off since 0\.\d+ s: the (thumb|index)'s device \(simulated ideal device\) "
+            told = (r"force has been off since 0\.\d+ s: the (thumb|index)'s device \(simulated device\) "
                     r"moved at 0\.01\d* m/s, "
                     r"but only 0\.01 m/s are allowed\. .* raise settings: safety: max_speed_m_s")
             self.assertRegex(result.stdout, "WARNING: " + told)

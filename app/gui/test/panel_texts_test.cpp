@@ -156,7 +156,7 @@ TEST_P(PanelTexts, OfOtherPanelsHaveRoom) {
 
 TEST_P(PanelTexts, OfTheDevicesHaveRoom) {
     DevicePanel panel;
-    panel.set_devices({{"thumb", "simulated ideal device", 60}, {"index", "Premium 1.5", 8.5}});
+    panel.set_devices({{"thumb", "simulated device", 60}, {"index", "Premium 1.5", 8.5}});
     check(panel, "devices");
     panel.rest("force off");
     const auto& table = *panel.findChild<QTableWidget*>();

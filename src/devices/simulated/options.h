@@ -24,7 +24,7 @@ constexpr auto enum_names(Preset) {
 }
 /// What messages, recordings and the window call the device.
 constexpr const char* model_of(Preset preset) {
-    return std::array{"simulated ideal device", "simulated Premium 1.0", "simulated Touch",
+    return std::array{"simulated device", "simulated Premium 1.0", "simulated Touch",
                       "simulated sigma.7"}[static_cast<size_t>(preset)];
 }
 

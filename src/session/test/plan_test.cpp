@@ -167,7 +167,7 @@ TEST(Plan, RefusesSharesThatContradictAreNoneOrAreOfNothing) {
     Files ideal;
     ideal.experiment += "settings: {coupling: {stiffness_share: 0.5}}\n";
     EXPECT_NE(ideal.messages().find("experiment.yaml:3: error: coupling.stiffness_share: simulated "
-                                    "plant does not report the largest stiffness that it renders. "
+                                    "device does not report the largest stiffness that it renders. "
                                     "Give stiffness_N_m under 'coupling', or use another rig."),
               std::string::npos)
         << ideal.messages();
@@ -218,7 +218,7 @@ TEST(Plan, WarnsOfStiffnessThatTheLoopCannotHold) {
         files.messages().find(
             "warning: coupling.stiffness: 9000 N/m is above 6000 N/m (2 b "
             "/ T), the highest stiffness at which the hand's damping of 3 N*s/m is certain to "
-            "keep simulated ideal device calm"),
+            "keep simulated device calm"),
         std::string::npos)
         << files.messages();
     files.experiment =
@@ -425,7 +425,7 @@ INSTANTIATE_TEST_SUITE_P(
             "g can withstand: about 150 N*s/m"},
         Bad{"a force limit beyond the device's",
             [](Files& f) { f.experiment += "settings: {safety: {max_force_N: 20}}\n"; },
-            "experiment.yaml:3: warning: safety.max_force: 20 N is more than simulated ideal "
+            "experiment.yaml:3: warning: safety.max_force: 20 N is more than simulated "
             "device can give: 8.5 N"},
         Bad{"a dead-man switch that no finger has",
             [](Files& f) { f.experiment += "settings: {safety: {dead_man_finger: toe}}\n"; },
