@@ -20,6 +20,7 @@ constexpr double kOrbit = 0.006;     // [rad/pixel]
 constexpr double kStill = 3;         // a pointer movement up to this length counts as a click [px]
 constexpr double kCoarse = 2.0 / 3;  // detail of moving pictures when drawing is slow
 constexpr int kUntilStill = 200;     // time without a new picture after which nothing moves [ms]
+constexpr int kUntilOver = 2000;     // and without a new frame: on a busy computer, they come late
 constexpr size_t kPath = 300;        // length of the path: five seconds [pictures]
 
 }  // namespace
@@ -42,7 +43,6 @@ SceneWidget::SceneWidget(QWidget* parent)
         Q_EMIT presented(presented_);
     });
     still_.setSingleShot(true);
-    still_.setInterval(kUntilStill);
     connect(&still_, &QTimer::timeout, this, [this] {
         is_still_ = true;
         update();
@@ -94,6 +94,7 @@ void SceneWidget::set_scene(const scene::Scene& scene, const frame::Frame& frame
 void SceneWidget::show_frame(const frame::Frame& frame) {
     if (frame.time < frame_.time) path_.clear();
     frame_ = frame;
+    since_frame_.start();
     turn_.set_angle(frame.workspace_turn);
     const int object = scene_.object_index();
     if (object >= 0) {
@@ -288,7 +289,8 @@ void SceneWidget::make_view() {
 void SceneWidget::choose_detail() {
     const bool all = std::exchange(is_still_, false) || fine_ != false;
     view_->set_detail(all ? 1 : kCoarse);
-    if (!all) still_.start();
+    const bool runs = since_frame_.isValid() && !since_frame_.hasExpired(kUntilOver);
+    if (!all) still_.start(runs ? kUntilOver : kUntilStill);
 }
 
 void SceneWidget::draw_scene() {

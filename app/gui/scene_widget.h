@@ -174,7 +174,8 @@ class SceneWidget : public QOpenGLWidget {
     std::optional<view::PatchLook> patch_;
     std::optional<bool> fine_;  // if unset, the renderer decides
     QTimer still_;              // runs out when nothing has moved for a while
-    bool is_still_ = false;     // whether the next picture shows what the last one showed
+    QElapsedTimer since_frame_;
+    bool is_still_ = false;  // whether the next picture shows what the last one showed
     std::vector<view::Workspace> workspaces_;
     servo::WorkspaceTurn turn_;
     std::deque<Vec3> path_;

@@ -41,6 +41,7 @@ class Pictures(Window):
         self.open(self.recording().rstrip("/"))
         self.key("Home", *["Page_Down"] * 6)
         self.settle()
+        time.sleep(3)  # then, all pixels are drawn
         self.screenshot("player")
         self.quit()
 
