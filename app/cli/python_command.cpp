@@ -26,8 +26,7 @@ void run_python(const std::string& file, const std::string& result, const std::s
                     "End other programs and try again.");
     const int status = app::wait_for_python(python).value_or(-1);
     exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : kFailed;
-    if (stop_requested && WIFSIGNALED(status))
-        throw fault(", because it was interrupted", "Run the same command again.");
+    if (stop_requested && WIFSIGNALED(status)) throw Interrupted{};
 }
 
 }  // namespace dihaptic::cli

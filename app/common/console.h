@@ -27,7 +27,7 @@ extern int exit_code;
 /// command throws an error, prints it. Returns the program's exit code.
 int run_program(CLI::App& app, int argc, char** argv);
 
-/// Ends a command that the user has interrupted; run_program() tells it.
+/// Thrown to end a command that the user has interrupted; run_program() reports it.
 struct Interrupted {};
 
 /// A progress line on standard error. On a terminal, the line is redrawn in place; elsewhere, a new
@@ -37,7 +37,7 @@ class ProgressLine {
     explicit ProgressLine(std::string label);
     ~ProgressLine();
     void show(double share, const std::string& what = "");
-    /// Shows the progress of work that may be left off anywhere. Throws Interrupted if the program
+    /// Shows the progress of work that may be abandoned anywhere. Throws Interrupted if the program
     /// is to stop.
     void show_or_stop(double share, const std::string& what = "");
     void clear();

@@ -21,9 +21,9 @@ std::string python_folder() {
 
 Launch python_launch(const std::string& folder, const std::string& module) {
     // other Pythons, such as Anaconda's, lack the package; -I ignores the current folder, the
-    // environment variables and the user's own packages. Until main() says what Ctrl-C does, it
-    // first is ignored, and then ends Python at once; by default, Python would print where it was
-    // while it loaded the package.
+    // environment variables and the user's own packages. Until main() decides what Ctrl-C does,
+    // Ctrl-C is first ignored, and then ends Python at once; by default, Python would print a
+    // traceback of how it loads the package.
     const std::string code_of =
         "import signal, sys; signal.signal(signal.SIGINT, signal.SIG_DFL); "
         "sys.path.insert(0, sys.argv.pop(1)); from dihaptic._parent import end_with; "

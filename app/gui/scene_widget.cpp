@@ -19,8 +19,8 @@ namespace {
 constexpr double kOrbit = 0.006;     // [rad/pixel]
 constexpr double kStill = 3;         // a pointer movement up to this length counts as a click [px]
 constexpr double kCoarse = 2.0 / 3;  // detail of moving pictures when drawing is slow
-constexpr int kUntilStill = 200;     // time without a new picture after which nothing moves [ms]
-constexpr int kUntilOver = 2000;     // and without a new frame: on a busy computer, they come late
+constexpr int kUntilStill = 200;     // without a new picture for so long, nothing moves [ms]
+constexpr int kUntilOver = 2000;     // nor without a new frame: a busy computer delays them [ms]
 constexpr size_t kPath = 300;        // length of the path: five seconds [pictures]
 
 }  // namespace

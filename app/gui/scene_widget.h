@@ -172,10 +172,10 @@ class SceneWidget : public QOpenGLWidget {
     Pose X_WB_dragged_;             // pose of the dragged body at the start of the drag
     Layers layers_;
     std::optional<view::PatchLook> patch_;
-    std::optional<bool> fine_;  // if unset, the renderer decides
-    QTimer still_;              // runs out when nothing has moved for a while
-    QElapsedTimer since_frame_;
-    bool is_still_ = false;  // whether the next picture shows what the last one showed
+    std::optional<bool> fine_;   // if unset, the renderer decides
+    QTimer still_;               // runs out when nothing has moved for a while
+    QElapsedTimer since_frame_;  // the last call of show_frame()
+    bool is_still_ = false;      // whether the next picture shows what the last one showed
     std::vector<view::Workspace> workspaces_;
     servo::WorkspaceTurn turn_;
     std::deque<Vec3> path_;

@@ -460,7 +460,7 @@ void SceneView::Parts::draw_surfaces(const frame::Frame& frame, const Viewpoint&
         program.set("moments", 0);
         program.set("picture", 1);
         program.set("alpha", 1.0);
-        program.set("rim", 1.0);
+        program.set("rim", 0.0);
     };
     if (looks) begin(*looks);
     begin(surface);
@@ -475,24 +475,26 @@ void SceneView::Parts::draw_surfaces(const frame::Frame& frame, const Viewpoint&
     surface.use();
 }
 
-/// Draws the targets as transparent, so that things inside them remain visible: a large one, within
-/// which hand and object are, as a bubble, of which one sees hardly more than the rim.
+/// Draws the targets as transparent, so that things inside them remain visible. A large one,
+/// which surrounds hand and object, is a bubble of which little more than the rim is seen.
 void SceneView::Parts::draw_targets(const frame::Frame& frame) const {
     constexpr double kAlpha = 0.45, kLargestFull = 0.02;  // radius [m]
     surface.set("gloss", 0.4);
-    surface.set("rim", kAlpha);
     glDepthMask(GL_FALSE);
     glEnable(GL_CULL_FACE);
     for (size_t i = 0; i < frame.task.targets.size(); ++i) {
         const int32_t rgb = frame.task.targets[i].colour;
         const double radius = frame.task.targets[i].radius;
-        surface.set("alpha", kAlpha * std::min(1.0, kLargestFull / radius));
+        const double alpha = kAlpha * std::min(1.0, kLargestFull / radius);
+        surface.set("alpha", alpha);
+        surface.set("rim", kAlpha - alpha);
         surface.set("albedo", rgb < 0 ? ink("#d55e00") : linear_colour(static_cast<uint32_t>(rgb)));
         surface.set(
             "world_from_model",
             placed({Quat::Identity(), frame::displayed_target(frame, i)}, Vec3::Constant(radius)));
         ball.draw();
     }
+    surface.set("rim", 0.0);
     glDisable(GL_CULL_FACE);
     glDepthMask(GL_TRUE);
 }
@@ -505,7 +507,6 @@ void SceneView::Parts::draw_ghosts(const frame::Frame& frame) const {
     glEnable(GL_CULL_FACE);
     surface.set("gloss", 1.0);
     surface.set("alpha", 0.35);
-    surface.set("rim", 0.35);
     for (size_t i = 0; i < fingers.size(); ++i) {
         surface.set("albedo", fingers[i].colour);
         surface.set("world_from_model", gl::matrix(frame::displayed_handle(frame, i)));
@@ -545,12 +546,10 @@ void SceneView::Parts::draw_solids(const Solids& solids) const {
     glDepthMask(GL_FALSE);
     glDepthFunc(GL_GREATER);
     surface.set("alpha", 0.3);
-    surface.set("rim", 0.3);
     draw_all();
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
     surface.set("alpha", 1.0);
-    surface.set("rim", 1.0);
     draw_all();
 }
 

@@ -106,7 +106,7 @@ out vec4 colour;
 uniform vec3 eye;
 uniform vec3 albedo;
 uniform float alpha;       // where one looks straight at the surface
-uniform float rim;         // alpha where one looks along it
+uniform float rim;         // what is added to it where one looks along the surface
 uniform float gloss;       // gloss of the surface's coat, 0 to 1
 uniform float grid;        // how dark the lines on its upper side are
 uniform float fade;        // beyond this distance from the middle it is the background; 0: never [m]
@@ -240,7 +240,7 @@ void main() {
     if (fade > 0.0)
         out_linear = mix(out_linear, background(), smoothstep(0.3 * fade, fade, length(p_W.xy - middle.xy)));
     float grazing = 1.0 - max(dot(n, v), 0.0);
-    colour = vec4(encode(out_linear), mix(alpha, rim, grazing * grazing));
+    colour = vec4(encode(out_linear), alpha + rim * grazing * grazing);
 }
 )";
 

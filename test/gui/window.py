@@ -29,7 +29,7 @@ needs.program("xdotool", "xdotool")
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
 needs.part("window", PROGRAM)
 SCREENSHOTS = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/screenshots"
-#: The first scene, seen from the left: on this camera, places on the screen in these tests rely.
+#: The first scene, seen from the left: the positions on the screen in these tests depend on this camera.
 SCENE = pathlib.Path("scenes/block-on-table.yaml").read_text().replace(
     "position_mm: [-60, -470, 330]\n    look_at_mm: [0, 0, 55]", "position_mm: [-250, -400, 290]\n    look_at_mm: [20, 0, 65]")
 assert "[-250, -400, 290]" in SCENE
@@ -175,8 +175,9 @@ class Window(unittest.TestCase):
         self.fail(f"waited in vain for {what}: {self.log.read()}")
 
     def settle(self):
-        """Until the window, of which no session runs, has drawn all, and whatever rests in all its pixels: eight looks in a
-        row find its threads asleep. One that has nothing to do leaves the processor to others."""
+        """Until the window, of which no session runs, has drawn all: eight looks in a row find its threads asleep. One that
+        has nothing to do leaves the processor to others. A scene whose last frame came from a session or a player gets
+        all its pixels two seconds later."""
         look = ["ps", "-L", "-o", "state=", "-p", str(self.window.pid)]
         end, asleep = time.monotonic() + patient(60), 0
         while asleep < 8:  # a quarter of a second

@@ -92,12 +92,12 @@ def _save_all(made: list[Drawn], data: Data, folder: Path, jobs: int) -> Iterato
         return
     # forked children already have the data, so nothing is read again, or passed on
     with ProcessPoolExecutor(jobs, get_context("fork"), _take, (save_one, os.getpid())) as children:
-        # a child that Ctrl-C meets before it ignores it would go on as a second parent
-        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        # a child that gets Ctrl-C before it ignores that signal would carry on as a second parent
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         try:
             titles = children.map(_do, range(len(made)))
         finally:
-            signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
         yield from titles
 
 

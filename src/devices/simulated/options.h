@@ -24,8 +24,10 @@ constexpr auto enum_names(Preset) {
 }
 /// What messages, recordings and the window call the device.
 constexpr const char* model_of(Preset preset) {
-    return std::array{"simulated device", "simulated Premium 1.0", "simulated Touch",
-                      "simulated sigma.7"}[static_cast<size_t>(preset)];
+    constexpr std::array kModels{"simulated device", "simulated Premium 1.0", "simulated Touch",
+                                 "simulated sigma.7"};
+    static_assert(kModels.size() == enum_names(Preset{}).size());
+    return kModels[static_cast<size_t>(preset)];
 }
 
 /// point: a single mass at the endpoint, equal along all axes. phantom: the links and joints of a
