@@ -221,6 +221,28 @@ class Statistics(unittest.TestCase):
         figures.write_analyses(figures.read(self.folder), self.folder / "figures")
         script = (self.folder / "figures" / "analysis.py").read_text()
         self.assertIn('"grip_N": [("surface", [], 1)]', script)
+        self.check_says(["surface has the same effect in all people, since each person has few trials"])
+
+    def check_says(self, expected):
+        """Both scripts print each of these once, below the estimates; and nothing alike of other effects."""
+        needs_statsmodels()
+        texts = [run_here(self.folder / "figures" / "analysis.py")]
+        if has_lme4():
+            texts.append(run_alone("Rscript", self.folder / "figures" / "analysis.R"))
+        for text in texts:
+            said = re.findall(r"^In this model, (.*)\. If people differ in it, its interval is too narrow\.$", text, re.M)
+            self.assertEqual(said, expected, text)
+
+    def test_a_factor_that_few_people_meet_twice_has_one_effect(self):
+        table = simulated(7)
+        # half of the people and more meet one surface alone
+        people = table["id"].astype(int)
+        table = table[(people % 3 == 0) | ((table["surface"] == "sandpaper") == (people % 3 == 1))]
+        sessions(self.folder, {"trials": as_trials(table)})
+        figures.write_analyses(figures.read(self.folder), self.folder / "figures")
+        script = (self.folder / "figures" / "analysis.py").read_text()
+        self.assertIn('("surface + mass_g", ["I(mass_g / ', script)
+        self.check_says(["surface has the same effect in all people, since few people meet several of its levels"])
 
     def test_lifts_and_missing_values(self):
         trials = self.planted().rename(columns={"grip_N": "reaction_s"})

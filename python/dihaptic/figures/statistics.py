@@ -33,6 +33,12 @@ _R_WORDS = {
 #: Names that have a meaning of their own in patsy.
 _PATSY_WORDS = {"C", "Q", "I", "T", "center", "standardize", "Treatment", "Sum", "Diff", "Poly", "Helmert"}
 _WIDTH = 118
+#: The script's last lines in Python, and in R, where effects are the same for all people that could differ.
+_SAY_SHARED = """    if effects == MODELS[measure][-1][0]:
+        print("\\n".join(SHARED.get(measure, [])))
+"""
+_SAY_SHARED_R = """  if (identical(model, tail(models[[measure]], 1)[[1]])) cat(shared[[measure]], sep = "\\n")
+"""
 #: Between the terms of a model in R.
 _R_LINE = ",\n                   "
 #: Maximum number of parameters of an interaction.
@@ -91,6 +97,7 @@ class _Design:
     pairs: dict[str, list[tuple[str, str]]] = field(default_factory=dict)  #: pairs of these whose interaction can be estimated
     own: dict[str, list[tuple[str, ...]]] = field(default_factory=dict)  #: factors, and pairs, whose effects each person has
     between: dict[str, list[int]] = field(default_factory=dict)  #: numbers of each model's parameters that differ between people
+    shared: dict[str, list[str]] = field(default_factory=dict)  #: sentences on effects that could differ between people, but do not
     numbers: dict[str, str] = field(default_factory=dict)  #: a numeric factor's unit
     sizes: dict[str, str] = field(default_factory=dict)  #: a numeric factor's standard deviation
     words: dict[str, list[str]] = field(default_factory=dict)  #: levels in order
@@ -147,14 +154,23 @@ def _add_model(rows: pd.DataFrame, measure: str, design: _Design) -> None:
     design.models[measure] = effects
     design.pairs[measure] = pairs = _pairs(rows, measure, effects, design)
     known = rows.dropna(subset=[measure, *effects])
-    levels = known.groupby("person")[effects].nunique()
-    within = [name for name in effects if (levels[name] > 1).mean() >= 0.5]
+    meeting = (known.groupby("person")[effects].nunique() > 1).mean()  # the share of the people who meet several levels
+    within = [name for name in effects if meeting[name] >= 0.5]
     of_one = [(name,) for name in within]
     both = [pair for pair in pairs if set(pair) <= set(within)]
     design.own[measure] = [names for names in [*of_one, *both] if _is_known_of_each(known, names, design)]
     between = [name for name in effects if name not in within]
     of_people = [pair for pair in pairs if set(pair) <= set(between)]
     design.between[measure] = [_parameters(known, between, [], design), _parameters(known, between, of_people, design)]
+    reasons = {name: "few people meet several of its levels" for name in between if meeting[name] > 0}
+    reasons.update({name: "each person has few trials" for name in within if (name,) not in design.own[measure]})
+    design.shared[measure] = [_of_all_people(name, reason) for name, reason in reasons.items()]
+
+
+def _of_all_people(name: str, reason: str) -> str:
+    return (
+        f"In this model, {name} has the same effect in all people, since {reason}. If people differ in it, its interval is too narrow."
+    )
 
 
 def _is_known_of_each(rows: pd.DataFrame, names: tuple[str, ...], design: _Design) -> bool:
@@ -363,6 +379,7 @@ def _python(data: Data, design: _Design) -> str:
         each = [_python_model(model) for model in _models(design, name, "Python")]
         models += _laid_out(f"    {_text(name)}: [", each, "],") + "\n"
     rows = _python_late(design, sitting) if design.late else _python_attempts(design, sitting)
+    shared = [f"{_text(name)}: [{_items(said)}]" for name, said in design.shared.items() if said]
     return f'''"""{about}
 Run with python3 analysis.py; it needs the Debian package python3-statsmodels. analysis.R fits the same models.
 """
@@ -380,7 +397,7 @@ from scipy.stats import t
 {words}
 MODELS = {{
 {models}}}
-
+{_laid_out("SHARED = {", shared, "}") + chr(10) if shared else ""}
 
 def read(name):
     texts = {{column: str for column in ["person", "unit", *WORDS]}}
@@ -412,7 +429,7 @@ for measure, (effects, own, between) in ((measure, of) for measure, each in MODE
     print(f"{{scale * fit.cov_re.iloc[0, 0] ** 0.5:.6g}}, within {{scale * fit.scale ** 0.5:.6g}}; {{what}} and 95 % intervals:")
     table.index = [names.get(row) or " x ".join(names.get(part, part) for part in row.split(":")) for row in table.index]
     print(table.to_string(float_format="{{:.6g}}".format))
-'''
+{_SAY_SHARED if shared else ""}'''
 
 
 def _python_model(model: _Model) -> str:
@@ -458,6 +475,7 @@ def _r(data: Data, design: _Design) -> str:
         _laid_out(f"  `{name}` = list(", [_r_model(model) for model in _models(design, name, "R")], ")") for name in design.models
     )
     rows = _r_late(design, sitting) if design.late else _r_attempts(design, sitting)
+    shared = [f"`{name}` = {_vector(said)}" for name, said in design.shared.items() if said]
     return f"""{_comment(_about(data, design))}
 # Run with Rscript analysis.R; it needs the Debian package r-cran-lme4. analysis.py fits the same models.
 suppressPackageStartupMessages(library(lme4))
@@ -472,7 +490,7 @@ if (length(script) == 1) setwd(dirname(gsub("~+~", " ", script, fixed = TRUE)))
 models <- list(
 {models}
 )
-
+{_laid_out("shared <- list(", shared, ")") + chr(10) if shared else ""}
 read <- function(name) {{
   columns <- names(read.csv(name, nrows = 1, check.names = FALSE))
   texts <- intersect(c("person", "unit", names(words)), columns)
@@ -504,7 +522,7 @@ for (measure in names(models)) for (model in models[[measure]]) {{
   cat(sprintf("%.6g, within %.6g; ", between, sigma(fit)))
   cat(if (main) "estimates" else "interactions", "and 95 % intervals:\\n")
   print(format(table, digits = 6, width = 10))
-}}
+{_SAY_SHARED_R if shared else ""}}}
 """
 
 
