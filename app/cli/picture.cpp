@@ -28,12 +28,7 @@ void make_picture(const PictureOptions& options) {
             if (end > time + 1e-9 && count > 0) break;
             shown = *frame;
             drawer.follow(shown);
-            if (stop_requested) {
-                exit_code = kFailed;
-                fmt::print(stderr, "interrupted: there is no picture\n");
-                return;
-            }
-            if (++count % 2000 == 0) line.show(std::min(1.0, end / all));
+            if (++count % 2000 == 0) line.show_or_stop(std::min(1.0, end / all));
         }
     }
     if (end < 0) throw Error({options.file, 0}, "", "has no frame", "Give another session.");

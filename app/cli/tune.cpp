@@ -32,11 +32,7 @@ void run(TuneOptions options) {
     const auto result = with_progress("tune", [&](const measure::Progress& progress) {
         return measure::tune(setup, stop_requested, progress);
     });
-    if (result.interrupted) {
-        fmt::print(stderr, "interrupted: there is no proposal\n");
-        exit_code = kFailed;
-        return;
-    }
+    if (result.interrupted) throw Interrupted{};
     write_file(measure::tune_map(result, setup, plan.rig.title), options.map);
     if (options.json) {
         fmt::print("{}", to_json(result, setup));

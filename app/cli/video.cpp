@@ -25,15 +25,8 @@ void make_video(const ViewOptions& options) {
                    seconds(frame->time) > static_cast<double>(pictures) / kRate + 1e-9) {
                 movie.add(drawer.draw(shown));
                 ++pictures;
-                if (showing.duration > 0)
-                    line.show(
-                        std::min(1.0, static_cast<double>(pictures) / kRate / showing.duration));
-                if (stop_requested) {
-                    line.clear();
-                    exit_code = kFailed;
-                    fmt::print(stderr, "interrupted: there is no video\n");
-                    return;
-                }
+                const double shown_for = static_cast<double>(pictures) / kRate;
+                line.show_or_stop(std::min(1.0, shown_for / std::max(showing.duration, 1e-3)));
             }
             shown = *frame;
             drawer.follow(shown);

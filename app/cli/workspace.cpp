@@ -48,15 +48,7 @@ void show_workspace(const std::string& file, const std::string& out) {
     rig::Workspace found;
     {
         ProgressLine line("workspace");
-        found = rig::find_workspace(reaches, [&](double share) {
-            line.show(share);
-            return !stop_requested.load();
-        });
-    }
-    if (stop_requested) {
-        fmt::print(stderr, "interrupted: there is no picture\n");
-        exit_code = kFailed;
-        return;
+        found = rig::find_workspace(reaches, [&](double share) { line.show_or_stop(share); });
     }
     write_file(rig::workspace_picture(found, reaches, rig.title), out);
     fmt::print("{}\n", rig.title);

@@ -148,7 +148,7 @@ std::unique_ptr<devices::DeviceGroup> devices_of(const Rig& rig, const hand::Dri
 
 /// The ball within which the link's centre can move, whatever the direction of the link.
 Ball common_ball(const Rig& rig) {
-    const Workspace found = find_workspace(reaches(rig), [](double) { return true; });
+    const Workspace found = find_workspace(reaches(rig));
     const Ball ball{found.sphere_centre, found.sphere_radius - kLink / 2 - kMargin};
     if (ball.radius < kLeastDepth / 4) {
         throw Error(rig.place, "devices", "have too small a common reach for carrying a link",

@@ -266,7 +266,7 @@ double out_of_reach(const Eigen::AlignedBox3d& box, const std::vector<Reach>& re
 }
 
 Workspace find_workspace(const std::vector<Reach>& reaches,
-                         const std::function<bool(double share)>& progress) {
+                         const std::function<void(double share)>& progress) {
     Eigen::AlignedBox3d all;
     for (const Reach& reach : reaches) all.extend(reach.bounds());
     Workspace out;
@@ -285,7 +285,7 @@ Workspace find_workspace(const std::vector<Reach>& reaches,
     int64_t count = 0;
     for (int z = 0; z < out.size.z(); ++z) {
         // the search that follows takes about a tenth of the total time
-        if (!progress(0.9 * z / out.size.z())) return {};
+        progress(0.9 * z / out.size.z());
         for (int y = 0; y < out.size.y(); ++y) {
             for (int x = 0; x < out.size.x(); ++x) {
                 const Vec3 p_WH = out.first + out.spacing * Vec3(x, y, z);
@@ -310,7 +310,7 @@ Workspace find_workspace(const std::vector<Reach>& reaches,
     out.shared = static_cast<double>(count) * cell;
     if (count > 0) {
         find_sphere(shared, out);
-        if (!progress(0.95)) return {};
+        progress(0.95);
         find_box(shared, out);
     }
     progress(1);

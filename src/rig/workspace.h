@@ -61,10 +61,10 @@ struct Workspace {
     }
 };
 
-/// Finds the workspace. `progress` is called with the fraction done, and returns false to cancel,
-/// in which case the result is empty.
-Workspace find_workspace(const std::vector<Reach>& reaches,
-                         const std::function<bool(double share)>& progress);
+/// Finds the workspace. `progress` is called with the fraction done, and may throw to give up.
+Workspace find_workspace(
+    const std::vector<Reach>& reaches,
+    const std::function<void(double share)>& progress = [](double) {});
 
 /// A proposal for the origin of the world and for the wall, in a workspace that is not empty.
 struct Placement {

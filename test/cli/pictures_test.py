@@ -106,7 +106,7 @@ class Commands(unittest.TestCase):
                 process = subprocess.Popen([PROGRAM, *command], stderr=subprocess.PIPE, text=True)
                 process.stderr.readline()  # waits until it has begun
                 process.send_signal(signal_)
-                self.assertIn("interrupted: there is no video", process.communicate(timeout=patient(60))[1])
+                self.assertIn("interrupted: nothing more was written", process.communicate(timeout=patient(60))[1])
                 self.assertEqual(process.returncode, 1)
             self.assertEqual(os.listdir(folder), [])
 

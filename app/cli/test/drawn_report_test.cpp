@@ -23,6 +23,15 @@ TEST(DrawnReport, ThatPythonRefusesTellsTheWindowWhy) {
         if (in_or_above_program({"python/dihaptic/facts.json"}).empty()) return;
         EXPECT_NE(why.find("contains no completed sessions"), std::string::npos) << why;
     }
+    folder.write("report.html", "of yesterday");
+    try {
+        draw_page(result, "dihaptic report", PythonSays::in_error);
+        FAIL() << "there is no session";
+    } catch (const Error& e) {
+        const std::string why = e.what();
+        EXPECT_NE(why.find(": error: has an older report.html still, because "), std::string::npos)
+            << why;
+    }
 }
 
 }  // namespace
