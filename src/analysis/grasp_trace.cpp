@@ -10,6 +10,8 @@ namespace dihaptic::analysis {
 
 namespace {
 
+constexpr size_t kUsualSamples = 16384;  ///< of a trial
+
 Vec3 axis_of(const GraspTrace::Sample& sample) {
     return model::grasp_axis(sample.p_WP.size(), [&](size_t i) { return sample.p_WP[i]; });
 }
@@ -84,6 +86,8 @@ void GraspTrace::add(const frame::Frame& frame) {
         sample.f_sent_W.push_back(finger.f_sent_W);
     }
     add_contacts(sample, frame, object_);
+    // a vector that grows moves its samples, of half a kilobyte each, again and again
+    if (samples_.capacity() == 0) samples_.reserve(kUsualSamples);
     samples_.push_back(std::move(sample));
 }
 

@@ -74,14 +74,17 @@ class Rows {
     Rows(hid_t parent, const std::string& name, size_t columns, Numbers numbers = Numbers::real);
 
     void add(const double* row);
-    /// Writes the buffered rows; must be called before the file is closed.
-    void flush();
+    /// Writes the buffered rows; must be called after the last one, before the file is closed.
+    void finish();
     hid_t dataset() const { return dataset_; }
     size_t count() const { return written_ + buffer_.size() / columns_; }
 
   private:
+    void write_chunks();
+
     Id dataset_;
     size_t columns_;
+    Numbers numbers_;
     size_t written_ = 0;
     std::vector<double> buffer_;
 };

@@ -76,7 +76,7 @@ class Series {
     }
     void add(const double* row) { rows_.add(row); }
     void close(double tick, const std::vector<double>* times) {
-        rows_.flush();
+        rows_.finish();
         if (times == nullptr) {
             const Id start = write_dataset(group_, "starting_time", 0.0);
             write_attribute(start, "rate", static_cast<float>(1 / tick));
@@ -84,7 +84,7 @@ class Series {
         } else {
             hdf5::Rows stamps(group_, "timestamps", 1, hdf5::Numbers::exact);
             for (const double time : *times) stamps.add(&time);
-            stamps.flush();
+            stamps.finish();
             write_attribute(stamps.dataset(), "interval", int32_t{1});
             write_attribute(stamps.dataset(), "unit", "seconds");
         }
@@ -151,8 +151,8 @@ class ListTable {
         for (size_t i = 0; i < numbers.size(); ++i) columns_[i + 1].add(&numbers[i]);
     }
     void close() {
-        ids_.flush();
-        for (hdf5::Rows& column : columns_) column.flush();
+        ids_.finish();
+        for (hdf5::Rows& column : columns_) column.finish();
     }
 
   private:
