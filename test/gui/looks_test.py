@@ -12,13 +12,19 @@ import soak
 
 
 class Looks(Window):
+    def open_participants_window(self):
+        self.key("alt+v", "s")
+        window = self.wait("the participant's window",
+                           lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic: participant$")).strip()
+        time.sleep(0.5)
+        self.xdotool("windowfocus", self.name)  # it has taken the keyboard
+        return window
+
     def test_has_a_participants_window_and_is_dark_and_remembers_it(self):
         self.open()
         self.key("alt+v", "d")  # View, Dark
-        self.key("alt+v", "s")
-        participant = self.wait("the participant's window",
-                            lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic: participant$")).strip()
-        self.key("F5")
+        participant = self.open_participants_window()
+        self.start()
         time.sleep(1)
         self.screenshot("participant")
         self.xdotool("windowclose", participant)
@@ -80,7 +86,7 @@ class Looks(Window):
         self.key("F5")
         time.sleep(3)
         self.screenshot("materials")
-        red, green, blue = self.pixels(0, 0, 1000, 800, "rgb24").astype(int).transpose(2, 0, 1)
+        red, green, blue = self.screen()[:800, :1000].astype(int).transpose(2, 0, 1)
         self.assertGreater(((red > green + 40) & (green > blue + 20)).sum(), 50_000)  # oak
         self.assertGreater(((red > 110) & (red > 3 * green)).sum(), 1000)  # the apple's red cheek
 
@@ -88,10 +94,8 @@ class Looks(Window):
         self.open()
         self.key("alt+v", "n", "w")
         self.screenshot("no-participant")
-        self.key("alt+v", "s")
-        participant = self.wait("the participant's window",
-                            lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic: participant$")).strip()
-        self.key("F5")
+        participant = self.open_participants_window()
+        self.start()
         time.sleep(1)
         seen = self.pixels(0, 0, 800, 600)
         self.xdotool("windowmove", participant, "1390", "890")

@@ -138,7 +138,7 @@ class Player(Window):
         self.key("ctrl+shift+o")
         time.sleep(0.5)
         self.key("alt+n")
-        time.sleep(0.5)
+        self.settle()
         self.xdotool("type", "coughed in the lift")
         self.screenshot("note")
         self.key("Tab", "Return")

@@ -4,6 +4,7 @@ beside this file share.
 Usage: gui/NAME_test.py PROGRAM [SCREENSHOTS [CLASS[.TEST]]], from the project's folder. Pictures of the window go to
 the folder SCREENSHOTS.
 """
+import contextlib
 import csv
 import glob
 import os
@@ -18,6 +19,7 @@ import unittest
 
 import h5py
 import numpy as np
+from PIL import Image
 
 sys.path.append("test")  # felt.py, patience.py
 import needs
@@ -45,6 +47,15 @@ def end_display(display):
         display.wait()
 
 
+def threads_at_work(process):
+    """Whether a thread of the process runs, could run, or waits for a disk."""
+    for file in glob.glob(f"/proc/{process}/task/*/stat"):
+        with contextlib.suppress(OSError):  # a thread that has ended since
+            if pathlib.Path(file).read_text().rpartition(")")[2].split()[0] in "RD":
+                return True
+    return False
+
+
 #: The thread sanitizer of LLVM 14 fails a check of its own (tsan_rtl.cpp) when Qt starts another program.
 starts_programs = unittest.skipIf("TSAN_OPTIONS" in os.environ, "the thread sanitizer cannot follow Qt into a new program")
 
@@ -58,8 +69,9 @@ class Window(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         read, write = os.pipe()
-        self.display = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-noreset", "-screen", "0", self.size + "x24"],
-                                        pass_fds=[write], stderr=subprocess.DEVNULL)
+        # of -fbdir, a file there is what is on the screen
+        self.display = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-noreset", "-screen", "0", self.size + "x24",
+                                         "-fbdir", self.folder.name], pass_fds=[write], stderr=subprocess.DEVNULL)
         self.addCleanup(end_display, self.display)
         os.close(write)
         with os.fdopen(read) as pipe:
@@ -170,7 +182,7 @@ class Window(unittest.TestCase):
                 return value
             if self.window is not None and self.window.poll() is not None:
                 break
-            time.sleep(0.05)
+            time.sleep(0.1)  # most conditions start a program
         self.log.seek(0)
         self.fail(f"waited in vain for {what}: {self.log.read()}")
 
@@ -178,26 +190,28 @@ class Window(unittest.TestCase):
         """Until the window, of which no session runs, has drawn all: eight looks in a row find its threads asleep. One that
         has nothing to do leaves the processor to others. A scene whose last frame came from a session or a player gets
         all its pixels two seconds later."""
-        look = ["ps", "-L", "-o", "state=", "-p", str(self.window.pid)]
         end, asleep = time.monotonic() + patient(60), 0
-        while asleep < 8:  # a quarter of a second
+        while asleep < 8:  # a third of a second
             self.assertLess(time.monotonic(), end, "the window draws without end, though no session runs")
-            states = subprocess.run(look, capture_output=True, text=True).stdout
-            asleep = 0 if "R" in states or "D" in states else asleep + 1
-            time.sleep(0.03)
+            asleep = 0 if threads_at_work(self.window.pid) else asleep + 1
+            time.sleep(0.04)
 
     def screenshot(self, name):
         pathlib.Path(SCREENSHOTS).mkdir(parents=True, exist_ok=True)
-        subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "x11grab", "-video_size", self.size, "-i",
-                        self.environment["DISPLAY"], "-frames:v", "1", f"{SCREENSHOTS}/{name}.png"], check=True,
-                       timeout=patient(60))
+        Image.fromarray(self.screen()).save(f"{SCREENSHOTS}/{name}.png", compress_level=1)
 
-    def pixels(self, left, top, width, height, of="gray"):
-        """Grey levels of a part of the display, by row; or its red, green and blue, of "rgb24"."""
-        raw = subprocess.run(["ffmpeg", "-loglevel", "error", "-f", "x11grab", "-video_size", f"{width}x{height}", "-i",
-                              f"{self.environment['DISPLAY']}+{left},{top}", "-frames:v", "1", "-f", "rawvideo", "-pix_fmt",
-                              of, "-"], check=True, capture_output=True, timeout=patient(60)).stdout
-        return np.frombuffer(raw, np.uint8).reshape((height, width) if of == "gray" else (height, width, 3))
+    def screen(self):
+        """Red, green and blue of the display, by row and column."""
+        picture = np.fromfile(self.folder.name + "/Xvfb_screen0", np.uint8)  # the format of the program xwd
+        head = picture[:100].view(">u4")
+        size, width, height, bytes_per_line, colours = (int(head[i]) for i in (0, 4, 5, 12, 19))
+        begin = size + 12 * colours
+        rows = picture[begin:begin + height * bytes_per_line].reshape(height, bytes_per_line)
+        return np.ascontiguousarray(rows[:, :4 * width].reshape(height, width, 4)[:, :, 2::-1])
+
+    def pixels(self, left, top, width, height):
+        """Grey levels of a part of the display, by row."""
+        return np.asarray(Image.fromarray(self.screen()[top:top + height, left:left + width]).convert("L"))
 
     def recording(self):
         """Folder of the running session, or else of the last one."""
@@ -235,7 +249,7 @@ class Window(unittest.TestCase):
         """The recording of the session that has just ended, in this state."""
         folder = self.recording()
         info = pathlib.Path(folder + "session.yaml")
-        self.wait("state: " + state, lambda: "state: " + state in info.read_text())
+        self.wait("state: " + state, lambda: info.exists() and "state: " + state in info.read_text())
         return h5py.File(folder + "session.nwb", "r")
 
     def series(self, file, name):
