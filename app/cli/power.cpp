@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "command.h"
@@ -19,6 +20,7 @@ struct PowerOptions {
     double alpha = 0.05;
     double ratio = 1;
     double attrition = 0;
+    std::optional<double> smallest_effect;
     std::string population;
     int seed = 1;
     int jobs = 0;
@@ -41,6 +43,7 @@ std::vector<std::string> words_of(const PowerOptions& o) {
                                  "--out=" + o.out,
                                  "--n"};
     for (const int n : o.n) out.push_back(fmt::format("{}", n));
+    if (o.smallest_effect) out.push_back(fmt::format("--smallest-effect={}", *o.smallest_effect));
     return out;
 }
 
@@ -86,6 +89,10 @@ void add_power(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--attrition", options->attrition, "share of people who drop out")
         ->capture_default_str();
+    command->add_option("--smallest-effect", options->smallest_effect,
+                        "smallest effect of interest, in the unit of the effect, for the power to "
+                        "find it among people who differ as simulated; default: the effect in the "
+                        "pool");
     command->add_option("--population", options->population,
                         "population file; default: the program's own");
     command->add_option("--seed", options->seed, "seed of the people and of the samples")

@@ -8,6 +8,7 @@ import tempfile
 import unittest
 import unittest.mock
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -192,6 +193,7 @@ class Pools(unittest.TestCase):
             ({"n": [2]}, "from 3 to"), ({"n": []}, "from 3 to"), ({"n": [10**8]}, "from 3 to"), ({"draws": 5}, "from 100"),
             ({"alpha": 2}, "from 0.000001"), ({"alpha": 1e-300}, "from 0.000001"), ({"ratio": 11}, "from 0.1"),
             ({"seed": -1}, "negative"),
+            ({"smallest_effect": 0}, "other than zero"), ({"smallest_effect": float("nan")}, "other than zero"),
             ({"test": "welch"}, "is not a test of one value of each person"), ({"attrition": 0.9}, "fewer than 3"),
             ({"n": [30], "attrition": 0.99}, "300 must be recruited"), ({"attrition": 0.9999999999}, "from 0 to 0.99"),
         ):  # fmt: skip
@@ -224,6 +226,24 @@ class Pools(unittest.TestCase):
         self.assertIn("The effect compares people with a fixed number", page("mean(preload_s) - 0.09", "fixed"))
         self.assertIn("cannot tell this effect from zero", page(f"mean(preload_s) - {self.mean_preload()}", "none"))
         self.refused("is the folder of a rehearsal", lambda: dh.power(self.pool, "mean(preload_s)", [4]).save(self.pool))
+
+    def test_the_smallest_effect_of_interest_takes_the_place_of_the_pool_s(self):
+        """Of the people, their scatter alone counts."""
+        result = dh.power(self.pool, "mean(preload_s) - 0.09", [6, 12], draws=200, smallest_effect=-0.02)
+        moved = dh.power(self.pool, "mean(preload_s) + 1", [6, 12], draws=200, smallest_effect=-0.02)
+        np.testing.assert_allclose(moved.table, result.table)
+        twice = dh.power(self.pool, "2 * (mean(preload_s) - 0.09)", [6, 12], draws=200, smallest_effect=-0.04)
+        np.testing.assert_allclose(twice.table.power, result.table.power)
+        normal = replace(result, sides=[pd.Series(5 + 2 * NORMAL)], smallest_effect=-1.2, draws=4000, _known={})
+        for n in (6, 12, 24):
+            ends = stats.t.ppf([0.025, 0.975], n - 1)
+            of_t = stats.nct.cdf(ends[0], n - 1, -0.6 * np.sqrt(n)) + stats.nct.sf(ends[1], n - 1, -0.6 * np.sqrt(n))
+            self.assertAlmostEqual(normal.at(n).power, of_t, delta=0.025)
+        self.assertAlmostEqual(normal.standardised, -0.6, delta=0.002)
+        text = result.save(Path(self.folder.name, "of-interest")).read_text()
+        self.assertIn("Sought is the smallest effect of interest, -0.02, Cohen's d = ", result.in_words())
+        self.assertNotIn("The effect compares people with a fixed number", text)
+        self.assertNotIn("cannot tell this effect from zero", text)
 
     def mean_preload(self):
         return Effect("mean(preload_s)").sides(self.data)[0].mean()

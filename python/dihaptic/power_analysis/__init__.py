@@ -45,6 +45,7 @@ def power(
     alpha: float = 0.05,
     ratio: float = 1,
     attrition: float = 0,
+    smallest_effect: float | None = None,
     population: str | Path = "",
     seed: int = 1,
     jobs: int = 1,
@@ -57,7 +58,8 @@ def power(
     folder of a rehearsal, whose people are then the pool. `effect` is an expression over its tables
     (power_analysis.effect.Effect): a value of each person that is compared with zero, or the difference of two groups of
     people. `n` lists the numbers of people recruited in each group; the second group has `ratio` times as many. The share
-    `attrition` of them is lost before the analysis. `test`: "t" or "wilcoxon" for one value of each person; "welch", "t" or
+    `attrition` of them is lost before the analysis. `smallest_effect` is the smallest effect of interest, in the unit of the
+    effect: the samples then have this effect on average, and people's scatter as simulated. `test`: "t" or "wilcoxon" for one value of each person; "welch", "t" or
     "wilcoxon" (rank sum) for groups; all are two-sided, at the level `alpha`. `draws` samples are made for each n. Raises
     Error.
 
@@ -75,6 +77,9 @@ def power(
 
     asked = Effect(effect)
     _check(n, draws, alpha, ratio, attrition, seed)
+    if smallest_effect is not None and not 0 < abs(smallest_effect) < np.inf:
+        remedy = "Give the smallest effect of interest, in the unit of the effect, with its sign."
+        raise error("must be a number other than zero", remedy, key="smallest_effect")
     name, _ = test_named(test, asked.is_between)
     folder = Path(path)
     if not folder.is_dir():
@@ -98,7 +103,7 @@ def power(
             raise error(f"is infinite for {some}", "Divide by a number that is never zero.", key=effect)
         if side.std() <= 1e-9 * abs(side.mean()):
             raise error("is the same for all people, so that it needs no test", "Name a column that differs.", key=effect)
-    result = Power(data, asked, sides, list(n), draws, name, alpha, ratio, attrition, seed)
+    result = Power(data, asked, sides, list(n), draws, name, alpha, ratio, attrition, seed, smallest_effect)
     if min(n) < result.fewest:
         raise error(f"leaves fewer than 3 people for a test; {result.fewest} must be recruited", "Recruit more.", key="n")
     return result

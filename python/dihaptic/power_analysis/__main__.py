@@ -22,6 +22,7 @@ def main(words: list[str]) -> int:
         parser.add_argument(f"--{name}", type=int, default=default)
     for name, share in (("alpha", 0.05), ("ratio", 1.0), ("attrition", 0.0)):
         parser.add_argument(f"--{name}", type=float, default=share)
+    parser.add_argument("--smallest-effect", type=float)
     for name in ("test", "population", "out"):
         parser.add_argument(f"--{name}", default="")
     asked = parser.parse_args(words)
@@ -36,9 +37,11 @@ def main(words: list[str]) -> int:
         with interruptible():
             result = power(
                 asked.path, asked.effect, asked.n, people=asked.people, draws=asked.draws, test=asked.test, alpha=asked.alpha,
-                ratio=asked.ratio, attrition=asked.attrition, population=asked.population, seed=asked.seed, jobs=asked.jobs, out=out,
+                ratio=asked.ratio, attrition=asked.attrition, smallest_effect=asked.smallest_effect, population=asked.population,
+                seed=asked.seed, jobs=asked.jobs, out=out,
             )  # fmt: skip
-            page = result.save(out / _in_a_name(asked.effect))
+            of = "" if asked.smallest_effect is None else f" of {asked.smallest_effect:g}"
+            page = result.save(out / _in_a_name(asked.effect + of))
     except KeyboardInterrupt:
         print("interrupted: the people who have finished are kept, and the same command continues", file=sys.stderr)
         return 130

@@ -36,7 +36,7 @@ _NOT_KNOWN = [
     "How laboratories differ. A population describes people of one laboratory; groups of real people on one schedule differ by "
     "more than their people's scatter explains (docs/manual/explanation/simulated-people.md). The power of your laboratory may "
     "lie outside every interval here.",
-    "Whether the true effect is as large as the simulated one. The intervals reflect only the numbers of samples and of "
+    "Whether the true effect is as large as the one that is sought here. The intervals reflect only the numbers of samples and of "
     "simulated people, and not whether the model of people is right.",
     "Exclusions after the analysis was seen, and other choices that a preregistration is meant to prevent.",
 ]
@@ -163,12 +163,12 @@ def warnings_of(result: Power) -> list[str]:
     # in force channels, the same columns are another measure, which was not compared
     unknown = [name for name in result.effect.columns if name not in _COMPARED or is_index(result.data)]
     low, high = result.interval
-    if low <= 0 <= high:
+    if low <= 0 <= high and result.smallest_effect is None:
         out.append(
             f"The pool cannot tell this effect from zero (95 % interval {low:.3g} to {high:.3g}): the power says nothing yet. "
-            "Rehearse more people (--people), or plan with the smallest effect that matters to you."
+            "Rehearse more people (--people), or give the smallest effect of interest (--smallest-effect)."
         )
-    if result.effect.has_fixed_value:
+    if result.effect.has_fixed_value and result.smallest_effect is None:
         known = "differs from that of a group of real people by up to 9 degrees"
         if unknown:
             known = "has not been compared with that of real people"
@@ -177,7 +177,7 @@ def warnings_of(result: Power) -> list[str]:
             f"only their differences; in this measure, their mean {known}."
         )
     out += [f"Left out: {why}." for why in result.data.left_out]
-    out += _drivers(result)
+    out += _drivers(result) if result.smallest_effect is None else []
     if unknown and result.data.is_simulated:
         out.append(
             f"How much {listed(unknown)} varies over trials and over people has never been compared with real people. If "
@@ -189,10 +189,10 @@ def warnings_of(result: Power) -> list[str]:
             f"An effect of {abs(result.standardised):.1f} standard deviations of people (Cohen's d) is larger than experiments "
             "find: simulated people are too much alike in this measure, and the power says nothing."
         )
-    if not result.data.is_simulated:
+    if not result.data.is_simulated and result.smallest_effect is None:
         out.append(
             "The pool consists of people who took part. The power of a study to find the effect in its own data says nothing "
-            "beyond its p value; to plan another study, name an effect that matters to it."
+            "beyond its p value; to plan another study, give its smallest effect of interest (--smallest-effect)."
         )
     if (table["untested"] > 0).any():
         worst = table.loc[table["untested"].idxmax()]

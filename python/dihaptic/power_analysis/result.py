@@ -39,6 +39,7 @@ class Power:
     ratio: float
     attrition: float
     seed: int
+    smallest_effect: float | None = None  #: the smallest effect of interest, in place of that of the pool
     _known: dict[tuple[int, float], Found] = field(default_factory=dict, repr=False)
 
     def __repr__(self) -> str:
@@ -51,9 +52,14 @@ class Power:
         return means[0] - means[1] if len(means) == 2 else means[0]
 
     @property
+    def sought(self) -> float:
+        """The true effect in the samples: the smallest one of interest or, if none is given, that of the pool."""
+        return self.size if self.smallest_effect is None else self.smallest_effect
+
+    @property
     def standardised(self) -> float:
-        """Cohen's d: the effect divided by the SD of people, which is pooled for two groups."""
-        return self.size / math.sqrt(sum(float(side.var()) for side in self.sides) / len(self.sides))
+        """Cohen's d: the effect that is sought, divided by the SD of people, which is pooled for two groups."""
+        return self.sought / math.sqrt(sum(float(side.var()) for side in self.sides) / len(self.sides))
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -103,7 +109,14 @@ class Power:
 
     @property
     def _pool(self) -> list[Array]:
-        return [side.to_numpy(float) for side in self.sides]
+        return self._with_sought([side.to_numpy(float) for side in self.sides])
+
+    def _with_sought(self, sides: list[Array]) -> list[Array]:
+        """These values, those of the first group moved so that the effect is the smallest one of interest, if that is given."""
+        if self.smallest_effect is None:
+            return sides
+        effect = sides[0].mean() - (sides[1].mean() if len(sides) == 2 else 0)
+        return [sides[0] + self.smallest_effect - effect, *sides[1:]]
 
     def _sizes(self, n: int) -> list[int]:
         """How many of n recruited people remain, in each group."""
@@ -124,7 +137,7 @@ class Power:
         draws = max(200, self.draws // 2)
         powers = []
         for i in range(_POOLS):
-            pool = [values[rng.integers(0, len(values), len(values))] for values in self._pool]
+            pool = self._with_sought([values[rng.integers(0, len(values), len(values))] for values in self._pool])
             powers.append(find_effect(pool, self._sizes(n), draws, self.test, self.alpha, self.seed + i).power)
         low, high = np.quantile(powers, [0.025, 0.975])
         return float(low), float(high)
@@ -139,11 +152,16 @@ class Power:
             each = " in each group" if self.ratio == 1 else " in the first group"
         population = self.data.sample.population or "not named"
         low, high = self.interval
+        size = f", Cohen's d = {self.standardised:.2f}"
+        if self.smallest_effect is not None:
+            size = (
+                f". Sought is the smallest effect of interest, {self.smallest_effect:.3g}{size}, among people who differ from "
+                "each other as these do"
+            )
         text = (
             f"The effect {self.effect.text} was computed from {who} (population {population}, dihaptic {version()}): "
-            f"{self.size:.3g} (95 % interval {low:.3g} to {high:.3g}), Cohen's d = {self.standardised:.2f}. {self.draws} samples "
-            f"of each size were drawn from them with replacement, and tested by {tests[self.test]} (two-sided, alpha = "
-            f"{self.alpha:g}; seed {self.seed})."
+            f"{self.size:.3g} (95 % interval {low:.3g} to {high:.3g}){size}. {self.draws} samples of each size were drawn "
+            f"from them with replacement, and tested by {tests[self.test]} (two-sided, alpha = {self.alpha:g}; seed {self.seed})."
         )
         for row in self.smallest.itertuples():
             if pd.isna(row.n):
