@@ -30,9 +30,9 @@ class Power(unittest.TestCase):
         dihaptic("rehearse", "experiments/first-trials.yaml", "--people", "10", "--out", cls.pool)
         dihaptic("collect", cls.pool, "--out", cls.pool)
 
-    def power(self, effect, *options):
+    def power(self, effect, *options, draws=200):
         out = self.enterContext(tempfile.TemporaryDirectory())
-        said = dihaptic("power", self.pool, "--effect", effect, "--draws", "200", "--out", out, *options)
+        said = dihaptic("power", self.pool, "--effect", effect, "--draws", str(draws), "--out", out, *options)
         self.assertEqual(said.returncode, 0, said.stderr)
         folder = os.path.dirname(said.stdout.splitlines()[-1])
         return said.stdout, pd.read_csv(os.path.join(folder, "power-by-n.csv"))
@@ -55,6 +55,26 @@ class Power(unittest.TestCase):
         for d in (0.0, 0.5, 0.66, 1, 3, 10):
             for n in (3, 5, 20, 100):
                 self.assertTrue(0 <= find_effect([NORMAL + d], [n], 200, "t", 0.05, 1).power <= 1)
+
+    def test_names_that_nobody_has_are_no_power_of_zero(self):
+        for effect, meant in (("mean(static_grip)", "static_grip_N"), ("mean(static_grip_N, block=havy)", "block=heavy")):
+            with tempfile.TemporaryDirectory() as out:
+                said = dihaptic("power", self.pool, "--effect", effect, "--out", out)
+                self.assertEqual((said.returncode, os.listdir(out)), (2, []))
+                self.assertIn(f"Did you mean '{meant}'", said.stderr)
+
+    def test_fewer_people_than_in_the_pool_find_less(self):
+        effect = "mean(static_grip_N, block=heavy) - mean(static_grip_N, block=light)"
+        table = self.power(effect, "--n", "4,7,10,14", "--smallest-effect", "0.3", draws=2000)[1]
+        self.assertTrue((table.power.diff()[1:] > 0.05).all(), table.power.tolist())
+
+    def test_the_effect_need_not_be_the_one_that_the_pool_has(self):
+        effect = "mean(static_grip_N, block=heavy) - mean(static_grip_N, block=light)"
+        of_pool, half, small = (self.power(effect, "--n", "8", *more)[1].power[0]
+                                for more in ((), ("--smallest-effect", "0.3"), ("--smallest-effect", "0.02")))
+        self.assertGreater(of_pool, half)
+        self.assertGreater(half, small)
+        self.assertLess(small, 0.3)
 
     def test_the_ratio_is_that_of_the_second_group(self):
         wide = [3 * NORMAL + 2, NORMAL]  # it is the first group that needs more people
