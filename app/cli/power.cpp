@@ -22,6 +22,7 @@ struct PowerOptions {
     double attrition = 0;
     std::optional<double> smallest_effect;
     std::string population;
+    int laboratories = 0;
     int seed = 1;
     int jobs = 0;
     std::string out;
@@ -36,6 +37,7 @@ std::vector<std::string> words_of(const PowerOptions& o) {
                                  fmt::format("--alpha={}", o.alpha),
                                  fmt::format("--ratio={}", o.ratio),
                                  fmt::format("--attrition={}", o.attrition),
+                                 fmt::format("--laboratories={}", o.laboratories),
                                  fmt::format("--seed={}", o.seed),
                                  fmt::format("--jobs={}", o.jobs),
                                  "--test=" + o.test,
@@ -95,6 +97,10 @@ void add_power(CLI::App& app) {
                         "pool");
     command->add_option("--population", options->population,
                         "population file; default: the program's own");
+    command->add_option("--laboratories", options->laboratories,
+                        "number of laboratories from which the people of the pool come in turn, to "
+                        "show how the power differs between laboratories; default: as many as the "
+                        "population says");
     command->add_option("--seed", options->seed, "seed of the people and of the samples")
         ->capture_default_str();
     command->add_option("--jobs", options->jobs,

@@ -37,6 +37,7 @@ def rehearse(
     *,
     jobs: int = 1,
     population: str | Path = "",
+    laboratories: int = 0,
     person: Callable[[int], Person] | None = None,
     between: Callable[[int], BetweenTrials] | None = None,
     seed: int = 1,
@@ -47,6 +48,7 @@ def rehearse(
     """Lets simulated people do an experiment, like `dihaptic rehearse`, and collects their tables.
 
     People who are already in the folder are not done again. The tables do not depend on `jobs`.
+    They come from as many `laboratories` in turn as are given here or, with 0, in the population.
     `person` makes your own simulated person for a number, from 1; by default, people are drawn from `population`.
     `between` makes the rules that choose a person's next trials. Random numbers that these draw from `random` and
     `numpy.random` depend on `seed` and the person's number; seed a generator of your own with that number too, since people
@@ -72,8 +74,11 @@ def rehearse(
         if person is None and between is None:
             command = ["rehearse", file, "--people", str(people), "--jobs", str(jobs), "--seed", str(seed)]
             command += ["--out", str(folder)] + (["--population", str(population)] if population else [])
+            command += ["--laboratories", str(laboratories)] if laboratories else []
             call(command + ["--keep-recordings"] * keep_recordings, progress)
         else:
+            if laboratories:
+                raise error("need people of a population", "Leave out laboratories, or person and between.", key="laboratories")
             study = _Study(file, folder, seed, str(population), person, between, keep_recordings)
             study.claim(people, jobs)
             study.run(people, jobs, progress)

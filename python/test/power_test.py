@@ -258,6 +258,43 @@ class Pools(unittest.TestCase):
         self.assertEqual([len(first.sides[0]), len(again.sides[0])], [10, 11])
         pd.testing.assert_series_equal(first.sides[0], again.sides[0].iloc[:10])
 
+    def test_further_laboratories_have_the_power_of_their_own_effect(self):
+        result = replace(dh.power(self.pool, "mean(preload_s)", [6], draws=200), draws=4000, _known={})
+        self.assertEqual((result.spread_of_laboratories, result.in_laboratories(6)), (None, {}))
+        self.assertNotIn("laboratory_50", result.table)
+
+        # six people of each; their scatter spreads the means of laboratories too
+        scatter = np.random.default_rng(3).permutation(NORMAL)[:12000].reshape(2000, 6)
+        means = 0.9 + 0.5 * NORMAL[5::10]
+        sides = [pd.Series(mean + people) for mean, people in zip(means, scatter)]
+        result = replace(result, sides=[pd.concat(sides)], _known={})
+        result.__dict__["_laboratories"] = [[side] for side in sides]
+        self.assertAlmostEqual(result.spread_of_laboratories, 0.5, delta=0.05)
+        both = result.in_laboratories(12)
+        for share, effect in ((50, 0.9), (10, 0.9 - 1.2816 * 0.5)):
+            of_t = stats.nct.sf(stats.t.ppf(0.975, 11), 11, effect * np.sqrt(12))
+            self.assertAlmostEqual(both[share], of_t, delta=0.05)
+        # where laboratories are alike, chance alone spreads their means
+        result.__dict__["_laboratories"] = [[pd.Series(0.9 + people)] for people in scatter]
+        del result.__dict__["spread_of_laboratories"]
+        self.assertLess(result.spread_of_laboratories, 0.15)
+
+    def test_people_of_laboratories_are_rehearsed(self):
+        file = Path(self.folder.name, "short-rotation.yaml")
+        text = Path("experiments/rotation-reversal.yaml").read_text().replace("../", f"{Path.cwd()}/")
+        file.write_text(re.sub(r"repeats: \d+", "repeats: 2", text))
+        options = {"n": [4], "draws": 100, "out": f"{self.folder.name}/laboratories", "progress": False}
+        result = dh.power(str(file), "mean(late)", people=12, laboratories=3, **options)
+        row = result.table.iloc[0]
+        self.assertTrue(0 <= row.laboratory_10 <= row.laboratory_50 <= 1, row)
+        self.assertIn("of further laboratories have a power of at least", result.in_words())
+        text = result.save(Path(self.folder.name, "of-laboratories")).read_text()
+        self.assertIn("laboratories: half, nine in ten", text)
+        self.assertIn("but for the traits that have between_laboratories", text)
+        pool = Path(options["out"], "pool")
+        self.refused("from which the people in the folder come", lambda: dh.power(pool, "mean(late)", laboratories=3))
+        self.refused("need people of a population", lambda: dh.rehearse(str(file), 1, laboratories=3, person=dh.Person))
+
     @soak.alone
     def test_groups_of_a_population_are_compared(self):
         population = Path(self.folder.name, "two.yaml")

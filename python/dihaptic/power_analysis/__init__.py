@@ -47,6 +47,7 @@ def power(
     attrition: float = 0,
     smallest_effect: float | None = None,
     population: str | Path = "",
+    laboratories: int = 0,
     seed: int = 1,
     jobs: int = 1,
     out: str | Path = "",
@@ -60,8 +61,8 @@ def power(
     people. `n` lists the numbers of people recruited in each group; the second group has `ratio` times as many. The share
     `attrition` of them is lost before the analysis. `smallest_effect` is the smallest effect of interest, in the unit of the
     effect: the samples then have this effect on average, and people's scatter as simulated. `test`: "t" or "wilcoxon" for one value of each person; "welch", "t" or
-    "wilcoxon" (rank sum) for groups; all are two-sided, at the level `alpha`. `draws` samples are made for each n. Raises
-    Error.
+    "wilcoxon" (rank sum) for groups; all are two-sided, at the level `alpha`. `draws` samples are made for each n. People who
+    come from `laboratories` show the power in a median one, and in one of the tenth percentile. Raises Error.
 
     >>> import dihaptic as dh
     >>> pool = dh.rehearse("experiments/first-trials.yaml", 12, out=f"{folder}/pool", progress=False)
@@ -82,9 +83,14 @@ def power(
         raise error("must be a number other than zero", remedy, key="smallest_effect")
     name, _ = test_named(test, asked.is_between)
     folder = Path(path)
+    if folder.is_dir() and laboratories:
+        raise error("are those from which the people in the folder come", "Leave this out.", key="laboratories")
     if not folder.is_dir():
         into = Path(out or f"power/{folder.stem}_{seed}")
-        pool = rehearse(path, people, jobs=jobs, population=population, seed=seed, out=into / "pool", progress=progress)
+        pool = rehearse(
+            path, people, jobs=jobs, population=population, laboratories=laboratories, seed=seed, out=into / "pool",
+            progress=progress,
+        )  # fmt: skip
         folder = pool.folder
     data = read_pool(folder)
     own = {str(column) for table in data.tables if table not in _REPORTED for column in data.table(table)}

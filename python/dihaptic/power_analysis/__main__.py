@@ -20,6 +20,7 @@ def main(words: list[str]) -> int:
     parser.add_argument("--n", type=int, nargs="+", default=[8, 12, 16, 24])
     for name, default in (("people", 200), ("draws", 500), ("seed", 1), ("jobs", os.cpu_count() or 1)):
         parser.add_argument(f"--{name}", type=int, default=default)
+    parser.add_argument("--laboratories", type=int, default=0)
     for name, share in (("alpha", 0.05), ("ratio", 1.0), ("attrition", 0.0)):
         parser.add_argument(f"--{name}", type=float, default=share)
     parser.add_argument("--smallest-effect", type=float)
@@ -38,7 +39,7 @@ def main(words: list[str]) -> int:
             result = power(
                 asked.path, asked.effect, asked.n, people=asked.people, draws=asked.draws, test=asked.test, alpha=asked.alpha,
                 ratio=asked.ratio, attrition=asked.attrition, smallest_effect=asked.smallest_effect, population=asked.population,
-                seed=asked.seed, jobs=asked.jobs, out=out,
+                laboratories=asked.laboratories, seed=asked.seed, jobs=asked.jobs, out=out,
             )  # fmt: skip
             of = "" if asked.smallest_effect is None else f" of {asked.smallest_effect:g}"
             page = result.save(out / _in_a_name(asked.effect + of))
@@ -51,7 +52,8 @@ def main(words: list[str]) -> int:
     except OSError as why:
         print(f"{out}: error: cannot be written: {why.strerror}. Name another folder with --out.", file=sys.stderr)
         return 2
-    shown = result.table[["n", "power", "low", "high", "wrong_sign", "exaggeration", "half_width"]]
+    columns = ["n", "power", "low", "high", "wrong_sign", "exaggeration", "half_width", "laboratory_50", "laboratory_10"]
+    shown = result.table[[name for name in columns if name in result.table]]
     print(shown.to_string(index=False, float_format=lambda value: f"{value:.3g}", na_rep="-"))
     print(result.in_words())
     for text in warnings_of(result):

@@ -31,11 +31,16 @@ _LARGE = 3
 _MOST_DOUBT = 0.2
 #: Number of samples of each size for the curves, and about how many n they have.
 _CURVE = 12
+#: What a pool of one laboratory, and one of several, cannot show of laboratories.
+_LABORATORIES = {
+    False: "How laboratories differ. These people come from one laboratory; groups of real people on one schedule differ by "
+    "more than their people's scatter explains (docs/manual/explanation/simulated-people.md). The power of your laboratory may "
+    "lie outside every interval here. Rehearse people of several (--laboratories).",
+    True: "How laboratories differ, but for the traits that have between_laboratories in the population's file: in all others, "
+    "and in how they instruct and select people, these laboratories are alike.",
+}
 #: What no pool of this program can show, whatever the experiment.
 _NOT_KNOWN = [
-    "How laboratories differ. A population describes people of one laboratory; groups of real people on one schedule differ by "
-    "more than their people's scatter explains (docs/manual/explanation/simulated-people.md). The power of your laboratory may "
-    "lie outside every interval here.",
     "Whether the true effect is as large as the one that is sought here. The intervals reflect only the numbers of samples and of "
     "simulated people, and not whether the model of people is right.",
     "Exclusions after the analysis was seen, and other choices that a preregistration is meant to prevent.",
@@ -142,6 +147,7 @@ def write_page(result: Power, folder: Path) -> Path:
         "Power with its 95 % interval from the number of samples; its middle 95 % if the pool were other people of the "
         "population. Of the significant estimates: the share with the wrong sign (type S), and their mean size over the true one "
         "(type M). Half width: of the confidence interval, the median. Then the power if people's spread were another."
+        + (" Last, the powers that half, and nine in ten, of further laboratories exceed." if "laboratory_50" in result.table else "")
     )
     page.table(_shown(result, who), caption, keys=1)
     smallest = result.smallest.rename(columns={"n": "smallest n", "may_be": "upper end", "probably": "lower end"})
@@ -151,7 +157,7 @@ def write_page(result: Power, folder: Path) -> Path:
     )
     page.table(smallest.astype(object).where(smallest.notna(), None), caption)
     page.heading("What this cannot know")
-    for text in _NOT_KNOWN:
+    for text in [_LABORATORIES[result.spread_of_laboratories is not None], *_NOT_KNOWN]:
         page.text(text)
     return write(folder / "power.html", page.html().encode(errors="replace"))
 
@@ -241,4 +247,7 @@ def _shown(result: Power, who: str) -> pd.DataFrame:
     columns |= {name.replace("_", " "): table[name] for name in ("wrong_sign", "exaggeration", "half_width")}
     spreads = zip(table["spread_0.7"], table["spread_1.5"])
     columns["spread x 0.7, x 1.5"] = [f"{less:.2f}, {more:.2f}" for less, more in spreads]
+    if "laboratory_50" in table:
+        both = zip(table["laboratory_50"], table["laboratory_10"])
+        columns["laboratories: half, nine in ten"] = [f"{half:.2f}, {most:.2f}" for half, most in both]
     return pd.DataFrame(columns)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from scipy import stats
 
 from .._facts import version
 from ..figures.data import Data
@@ -23,6 +24,8 @@ WANTED = (0.8, 0.9)
 MOST = 1000
 #: How often the pool itself is drawn anew, to show how its size affects the power.
 _POOLS = 100
+#: Minimum number of laboratories from which their spread is estimated, and number of further ones whose power is computed.
+_LEAST_LABORATORIES, _FURTHER = 3, 41
 
 
 @dataclass(frozen=True)
@@ -79,7 +82,8 @@ class Power:
         """A row for each n: the power, with its 95 % interval from the number of draws (low, high), and the range that it
         might have with other pools of this size (pool_low, pool_high); wrong_sign and exaggeration of significant estimates
         (errors of type S and M); half_width of the confidence interval; untested, the share of samples without a test; and
-        the power if people differed less, or more (spread_0.7, spread_1.5)."""
+        the power if people differed less, or more (spread_0.7, spread_1.5); and, of people who come from laboratories, the
+        power in a median laboratory, and in one of the tenth percentile (laboratory_50, laboratory_10)."""
         rows = []
         for n in self.n:
             found = self.at(n)
@@ -89,8 +93,57 @@ class Power:
                 "pool_low": low, "pool_high": high, "wrong_sign": found.wrong_sign, "exaggeration": found.exaggeration,
                 "half_width": found.half_width, "untested": found.untested,
                 **{f"spread_{spread:g}": self.at(n, spread).power for spread in SPREADS if spread != 1},
+                **{f"laboratory_{share}": power for share, power in self.in_laboratories(n).items()},
             })  # fmt: skip
         return pd.DataFrame(rows)
+
+    @cached_property
+    def _laboratories(self) -> list[list[pd.Series]]:
+        """The effect of the people of each laboratory, or of those of each group there; [] for people of fewer than three
+        laboratories, or where one has a single person."""
+        number = {each.person: each.laboratory for each in self.data.sittings}
+        known = sorted({number[person] for side in self.sides for person in side.index} - {0})
+        each = [[side[side.index.map(number) == one] for side in self.sides] for one in known]
+        return each if len(each) >= _LEAST_LABORATORIES and all(len(side) > 1 for own in each for side in own) else []
+
+    @cached_property
+    def spread_of_laboratories(self) -> float | None:
+        """The standard deviation of the effect over laboratories, without what the scatter of the people in each explains
+        (method of moments); None for people of fewer than three laboratories."""
+        if not self._laboratories:
+            return None
+        effects = [own[0].mean() - (own[1].mean() if len(own) == 2 else 0) for own in self._laboratories]
+        within = [self._variance_within(i) for i in range(len(self.sides))]
+        chance = np.mean([sum(var / len(side) for var, side in zip(within, own)) for own in self._laboratories])
+        return math.sqrt(max(0.0, float(np.var(effects, ddof=1) - chance)))
+
+    def _variance_within(self, side: int) -> float:
+        """The variance of people about the mean of their laboratory, in one of the groups."""
+        squares = sum(float(own[side].var()) * (len(own[side]) - 1) for own in self._laboratories)
+        return squares / sum(len(own[side]) - 1 for own in self._laboratories)
+
+    def in_laboratories(self, n: int) -> dict[int, float]:
+        """With n people recruited (in each group), the power that half of further laboratories exceed (50), and that nine in
+        ten exceed (10); {} for people of fewer than three laboratories.
+
+        The effect of a further laboratory is that which is sought plus t s sqrt(1 + 1/k), where k laboratories have the spread
+        s, and t follows Student's distribution for k - 1 degrees of freedom; its people scatter as those of all laboratories
+        do about the means of theirs. What is found in the wrong direction does not count.
+        """
+        spread, k = self.spread_of_laboratories, len(self._laboratories)
+        if spread is None:
+            return {}
+        people = []  # their deviations from the means of their laboratories, which are smaller than those from the true means
+        for i in range(len(self.sides)):
+            own = [laboratory[i].to_numpy(float) for laboratory in self._laboratories]
+            people.append(np.concatenate([(each - each.mean()) * math.sqrt(len(each) / (len(each) - 1)) for each in own]))
+        powers = []
+        for t in stats.t.ppf((np.arange(_FURTHER) + 0.5) / _FURTHER, k - 1):
+            effect = self.sought + t * spread * math.sqrt(1 + 1 / k)
+            found = find_effect([people[0] + effect, *people[1:]], self._sizes(n), self.draws, self.test, self.alpha, self.seed)
+            wrong = 0.0 if math.isnan(found.wrong_sign) else found.wrong_sign
+            powers.append(found.power * (1 - wrong if effect * self.sought > 0 else wrong))
+        return {share: float(np.quantile(powers, share / 100)) for share in (50, 10)}
 
     @cached_property
     def smallest(self) -> pd.DataFrame:
@@ -172,6 +225,14 @@ class Power:
                     f" With {row.n} people{each} the power reaches {100 * row.power:.0f} %; with other pools of this size it "
                     f"would be between {pool_low:.2f} and {pool_high:.2f}."
                 )
+        some = self.smallest["n"].dropna()
+        n = int(some.iloc[0]) if len(some) else max(self.n)
+        if there := self.in_laboratories(n):
+            text += (
+                f" Laboratories differ in the effect by a standard deviation of {self.spread_of_laboratories:.2g}: with {n} people"
+                f"{each}, half of further laboratories have a power of at least {there[50]:.2f}, and nine in ten of at least "
+                f"{there[10]:.2f}."
+            )
         if self.effect.is_between and self.ratio != 1:
             text += f" The second group, {self.effect.groups[1]}, has {self.ratio:g} times as many."
         if self.attrition:
