@@ -55,6 +55,21 @@ void power(PowerOptions options) {
     run_python(options.file, "power", "dihaptic.power_analysis.__main__", words_of(options));
 }
 
+void add_options_of_pool(CLI::App& command, PowerOptions& options) {
+    command.add_option("--people", options.people, "number of people in the pool")
+        ->capture_default_str();
+    command.add_option("--population", options.population,
+                       "population file; default: the program's own");
+    command.add_option("--laboratories", options.laboratories,
+                       "number of laboratories from which the people of the pool come in turn, to "
+                       "show how the power differs between laboratories; default: as many as the "
+                       "population says");
+    command.add_option("--seed", options.seed, "seed of the people and of the samples")
+        ->capture_default_str();
+    command.add_option("--jobs", options.jobs,
+                       "number of people at a time; default: one on each processor");
+}
+
 }  // namespace
 
 void add_power(CLI::App& app) {
@@ -76,8 +91,6 @@ void add_power(CLI::App& app) {
                      "numbers of people recruited in each group, 3 or more, separated by commas")
         ->delimiter(',')
         ->capture_default_str();
-    command->add_option("--people", options->people, "number of people in the pool")
-        ->capture_default_str();
     command->add_option("--draws", options->draws, "number of samples of each size")
         ->capture_default_str();
     command->add_option(
@@ -95,16 +108,7 @@ void add_power(CLI::App& app) {
                         "smallest effect of interest, in the unit of the effect, for the power to "
                         "find it among people who differ as simulated; default: the effect in the "
                         "pool");
-    command->add_option("--population", options->population,
-                        "population file; default: the program's own");
-    command->add_option("--laboratories", options->laboratories,
-                        "number of laboratories from which the people of the pool come in turn, to "
-                        "show how the power differs between laboratories; default: as many as the "
-                        "population says");
-    command->add_option("--seed", options->seed, "seed of the people and of the samples")
-        ->capture_default_str();
-    command->add_option("--jobs", options->jobs,
-                        "number of people at a time; default: one on each processor");
+    add_options_of_pool(*command, *options);
     command->add_option("--out", options->out, "folder of the results; default: power/NAME_SEED");
     command->footer(
         "\nA folder in it, named after the effect, gets power.html, a page for a preregistration; "

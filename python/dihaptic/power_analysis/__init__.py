@@ -110,6 +110,9 @@ def power(
         if side.std() <= 1e-9 * abs(side.mean()):
             raise error("is the same for all people, so that it needs no test", "Name a column that differs.", key=effect)
     result = Power(data, asked, sides, list(n), draws, name, alpha, ratio, attrition, seed, smallest_effect)
+    if not 1e-6 < abs(result.standardised) < 1e6 and smallest_effect is not None:
+        what = f"is {result.standardised:.2g} standard deviations of people"
+        raise error(what, "Give it in the unit of the effect.", key="smallest_effect")
     if min(n) < result.fewest:
         raise error(f"leaves fewer than 3 people for a test; {result.fewest} must be recruited", "Recruit more.", key="n")
     return result

@@ -41,7 +41,7 @@ def main(words: list[str]) -> int:
                 ratio=asked.ratio, attrition=asked.attrition, smallest_effect=asked.smallest_effect, population=asked.population,
                 laboratories=asked.laboratories, seed=asked.seed, jobs=asked.jobs, out=out,
             )  # fmt: skip
-            of = "" if asked.smallest_effect is None else f" of {asked.smallest_effect:g}"
+            of = "" if asked.smallest_effect is None else f" of {asked.smallest_effect:g}".replace("-", "minus ")
             page = result.save(out / _in_a_name(asked.effect + of))
     except KeyboardInterrupt:
         print("interrupted: the people who have finished are kept, and the same command continues", file=sys.stderr)
