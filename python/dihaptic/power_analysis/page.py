@@ -190,6 +190,12 @@ def warnings_of(result: Power) -> list[str]:
             "simulated people vary too little, fewer people seem to be enough: read the power with people's spread times 1.5, or "
             "look up the spread in a published study."
         )
+    if unknown and result.spread_of_laboratories is not None:
+        out.append(
+            "These laboratories differ only in the traits that have between_laboratories in the population's file. In the "
+            f"program's own population, these are the rates of learning rotations: in {listed(unknown)} its laboratories are "
+            "alike, and real ones may not be."
+        )
     if abs(result.standardised) > _LARGE:
         out.append(
             f"An effect of {abs(result.standardised):.1f} standard deviations of people (Cohen's d) is larger than experiments "
