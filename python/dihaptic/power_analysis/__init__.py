@@ -55,14 +55,14 @@ def power(
 ) -> Power:
     """The power of an experiment to find an effect with n people.
 
-    `path` is the experiment's file, which a pool of `people` then rehearses in `out`/pool (or continues there); or the
-    folder of a rehearsal, whose people are then the pool. `effect` is an expression over its tables
-    (power_analysis.effect.Effect): a value of each person that is compared with zero, or the difference of two groups of
-    people. `n` lists the numbers of people recruited in each group; the second group has `ratio` times as many. The share
-    `attrition` of them is lost before the analysis. `smallest_effect` is the smallest effect of interest, in the unit of the
-    effect: the samples then have this effect on average, and people's scatter as simulated. `test`: "t" or "wilcoxon" for one value of each person; "welch", "t" or
-    "wilcoxon" (rank sum) for groups; all are two-sided, at the level `alpha`. `draws` samples are made for each n. People who
-    come from `laboratories` show the power in a median one, and in one of the tenth percentile. Raises Error.
+    `path` is the experiment's file, which a pool of `people` then rehearses in `out`/pool (or continues there); or the folder
+    of a rehearsal, whose people are then the pool. `effect` is an expression over its tables (power_analysis.effect.Effect):
+    a value of each person that is compared with zero, or the difference of two groups of people. `n` lists the numbers of
+    people recruited in each group; the second group has `ratio` times as many. The share `attrition` of them is lost before
+    the analysis. `smallest_effect` is the smallest effect of interest, in the unit of the effect: the samples then have this
+    effect on average, and people's scatter as simulated. `test`: "t" or "wilcoxon" for one value of each person; "welch", "t"
+    or "wilcoxon" (rank sum) for groups; all are two-sided, at the level `alpha`. `draws` samples are made for each n. People
+    who come from `laboratories` show the power in a median one, and in one of the tenth percentile. Raises Error.
 
     >>> import dihaptic as dh
     >>> pool = dh.rehearse("experiments/first-trials.yaml", 12, out=f"{folder}/pool", progress=False)

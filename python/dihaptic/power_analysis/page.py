@@ -41,8 +41,8 @@ _LABORATORIES = {
 }
 #: What no pool of this program can show, whatever the experiment.
 _NOT_KNOWN = [
-    "Whether the true effect is as large as the one that is sought here. The intervals reflect only the numbers of samples and of "
-    "simulated people, and not whether the model of people is right.",
+    "Whether the true effect is as large as the one that is sought here. The intervals reflect only the numbers of samples "
+    "and of simulated people, and not whether the model of people is right.",
     "Exclusions after the analysis was seen, and other choices that a preregistration is meant to prevent.",
 ]
 
@@ -147,7 +147,7 @@ def write_page(result: Power, folder: Path) -> Path:
         "Power with its 95 % interval from the number of samples; its middle 95 % if the pool were other people of the "
         "population. Of the significant estimates: the share with the wrong sign (type S), and their mean size over the true one "
         "(type M). Half width: of the confidence interval, the median. Then the power if people's spread were another."
-        + (" Last, the powers that half, and nine in ten, of further laboratories exceed." if "laboratory_50" in result.table else "")
+        + " Last, the powers that half, and nine in ten, of further laboratories exceed." * ("laboratory_50" in result.table)
     )
     page.table(_shown(result, who), caption, keys=1)
     smallest = result.smallest.rename(columns={"n": "smallest n", "may_be": "upper end", "probably": "lower end"})

@@ -229,9 +229,9 @@ class Power:
         n = int(some.iloc[0]) if len(some) else max(self.n)
         if there := self.in_laboratories(n):
             text += (
-                f" Laboratories differ in the effect by a standard deviation of {self.spread_of_laboratories:.2g}: with {n} people"
-                f"{each}, half of further laboratories have a power of at least {there[50]:.2f}, and nine in ten of at least "
-                f"{there[10]:.2f}."
+                f" Laboratories differ in the effect by a standard deviation of {self.spread_of_laboratories:.2g}: with "
+                f"{n} people{each}, half of further laboratories have a power of at least {there[50]:.2f}, and nine in ten of at "
+                f"least {there[10]:.2f}."
             )
         if self.effect.is_between and self.ratio != 1:
             text += f" The second group, {self.effect.groups[1]}, has {self.ratio:g} times as many."
