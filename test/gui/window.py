@@ -198,7 +198,7 @@ class Window(unittest.TestCase):
 
     def screenshot(self, name):
         pathlib.Path(SCREENSHOTS).mkdir(parents=True, exist_ok=True)
-        Image.fromarray(self.screen()).save(f"{SCREENSHOTS}/{name}.png", compress_level=1)
+        Image.fromarray(self.screen()).save(f"{SCREENSHOTS}/{name}.png")
 
     def screen(self):
         """Red, green and blue of the display, by row and column."""
