@@ -399,8 +399,9 @@ class Reports(unittest.TestCase):
         again = trials[trials.block == "reaches"].assign(attempt=2)
         data = with_tables(self.fitts, trials=pd.concat([trials, again], ignore_index=True))
         data.sessions[0].info["convergence"] = {"missed": 7}
+        data.laboratories = {"sim-001": 1, "sim-002": 2, "sim-003": 2}
         texts = warnings_of(data, {"not_measured": "the pull"})
-        for words in ("the pull", "In 7 ticks", " %) were repeated"):
+        for words in ("the pull", "In 7 ticks", " %) were repeated", "come from 2 laboratories"):
             self.assertTrue(any(words in text for text in texts), (words, texts))
 
 

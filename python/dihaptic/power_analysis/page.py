@@ -151,6 +151,7 @@ def write_page(result: Power, folder: Path) -> Path:
     )
     page.table(_shown(result, who), caption, keys=1)
     smallest = result.smallest.rename(columns={"n": "smallest n", "may_be": "upper end", "probably": "lower end"})
+    smallest["power"] = [f"{100 * power:.0f} %" for power in smallest["power"]]
     caption = (
         "The smallest n with this power, and those at which the upper and the lower end of its interval from the number of "
         "samples reach it. What the pool's size leaves open is more: see the column with other pools."

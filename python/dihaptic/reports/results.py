@@ -44,6 +44,11 @@ def warnings_of(data: Data, told: dict[str, Any]) -> list[str]:
             "trials under them are empty. The hand's movement is in trials.csv, and in full in session.nwb."
         )
     out += limits_of(data)
+    if (several := len(set(data.laboratories.values()))) > 1:
+        out.append(
+            f"These people come from {several} laboratories. Means and intervals are over people, as if they came from one: a "
+            "further laboratory may lie outside the intervals."
+        )
     if text := _missed_solves(data):
         out.append(text)
     if data.has("adaptation") and (text := shared_windows(data.table("adaptation"))):
