@@ -26,7 +26,8 @@ void make_video(const ViewOptions& options) {
                 movie.add(drawer.draw(shown));
                 ++pictures;
                 const double shown_for = static_cast<double>(pictures) / kRate;
-                line.show_or_stop(std::min(1.0, shown_for / std::max(showing.duration, 1e-3)));
+                line.show_or_stop(showing.duration > 0 ? std::min(1.0, shown_for / showing.duration)
+                                                       : 0);
             }
             shown = *frame;
             drawer.follow(shown);

@@ -43,10 +43,11 @@ std::string last_words_in(const Descriptor& file) {
 
 Error no_page(const std::string& folder, const std::string& why, const std::string& remedy) {
     const bool older = std::filesystem::exists(folder + "/report.html");
-    return Error(
-        {folder, 0}, "",
-        (older ? "has an older report.html still, because " : "has no report.html, because ") + why,
-        remedy);
+    return Error({folder, 0}, "",
+                 (older ? "has no new report.html, only an older one, because "
+                        : "has no report.html, because ") +
+                     why,
+                 remedy);
 }
 
 }  // namespace

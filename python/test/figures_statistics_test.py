@@ -232,6 +232,7 @@ class Statistics(unittest.TestCase):
         for text in texts:
             said = re.findall(r"^In this model, (.*)\. If people differ in it, its interval is too narrow\.$", text, re.M)
             self.assertEqual(said, expected, text)
+            self.assertTrue(text.endswith("narrow.\n"), text)
 
     def test_a_factor_that_few_people_meet_twice_has_one_effect(self):
         table = simulated(7)

@@ -194,6 +194,7 @@ class Pools(unittest.TestCase):
             ({"alpha": 2}, "from 0.000001"), ({"alpha": 1e-300}, "from 0.000001"), ({"ratio": 11}, "from 0.1"),
             ({"seed": -1}, "negative"),
             ({"smallest_effect": 0}, "other than zero"), ({"smallest_effect": float("nan")}, "other than zero"),
+            ({"laboratories": 2}, "fewer than three do not show how"),
             ({"smallest_effect": 1e300}, "standard deviations of people. Give it in the unit of the effect"),
             ({"test": "welch"}, "is not a test of one value of each person"), ({"attrition": 0.9}, "fewer than 3"),
             ({"n": [30], "attrition": 0.99}, "300 must be recruited"), ({"attrition": 0.9999999999}, "from 0 to 0.99"),

@@ -86,7 +86,7 @@ void GraspTrace::add(const frame::Frame& frame) {
         sample.f_sent_W.push_back(finger.f_sent_W);
     }
     add_contacts(sample, frame, object_);
-    // a vector that grows moves its samples, of half a kilobyte each, again and again
+    // a vector that grows moves its samples, of more than half a kilobyte each, again and again
     if (samples_.capacity() == 0) samples_.reserve(kUsualSamples);
     samples_.push_back(std::move(sample));
 }

@@ -195,7 +195,7 @@ void shuffled(const std::vector<double>& rows, size_t columns, size_t column,
     }
 }
 
-/// Compresses chunks as HDF5's deflate filter does, which makes its tables anew for each of them.
+/// Compresses chunks as HDF5's deflate filter does, but keeps its tables from one to the next.
 class Deflate {
   public:
     Deflate() {

@@ -19,11 +19,13 @@ import unittest
 
 import h5py
 import numpy as np
-from PIL import Image
 
 sys.path.append("test")  # felt.py, patience.py
 import needs
 from patience import SLOWNESS, patient
+
+needs.module("PIL", "python3-pil")
+from PIL import Image
 
 needs.program("Xvfb", "xvfb")
 needs.program("xdotool", "xdotool")
@@ -69,7 +71,7 @@ class Window(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         read, write = os.pipe()
-        # of -fbdir, a file there is what is on the screen
+        # -fbdir: a file in this folder always holds what is on the screen
         self.display = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-noreset", "-screen", "0", self.size + "x24",
                                          "-fbdir", self.folder.name], pass_fds=[write], stderr=subprocess.DEVNULL)
         self.addCleanup(end_display, self.display)

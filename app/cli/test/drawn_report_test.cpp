@@ -29,7 +29,8 @@ TEST(DrawnReport, ThatPythonRefusesTellsTheWindowWhy) {
         FAIL() << "there is no session";
     } catch (const Error& e) {
         const std::string why = e.what();
-        EXPECT_NE(why.find(": error: has an older report.html still, because "), std::string::npos)
+        EXPECT_NE(why.find(": error: has no new report.html, only an older one, because "),
+                  std::string::npos)
             << why;
     }
 }

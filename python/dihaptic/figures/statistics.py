@@ -35,9 +35,10 @@ _PATSY_WORDS = {"C", "Q", "I", "T", "center", "standardize", "Treatment", "Sum",
 _WIDTH = 118
 #: The script's last lines in Python, and in R, where effects are the same for all people that could differ.
 _SAY_SHARED = """    if effects == MODELS[measure][-1][0]:
-        print("\\n".join(SHARED.get(measure, [])))
+        for sentence in SHARED.get(measure, []):
+            print(sentence)
 """
-_SAY_SHARED_R = """  if (identical(model, tail(models[[measure]], 1)[[1]])) cat(shared[[measure]], sep = "\\n")
+_SAY_SHARED_R = """  if (identical(model, tail(models[[measure]], 1)[[1]])) writeLines(as.character(shared[[measure]]))
 """
 #: Between the terms of a model in R.
 _R_LINE = ",\n                   "
@@ -97,7 +98,7 @@ class _Design:
     pairs: dict[str, list[tuple[str, str]]] = field(default_factory=dict)  #: pairs of these whose interaction can be estimated
     own: dict[str, list[tuple[str, ...]]] = field(default_factory=dict)  #: factors, and pairs, whose effects each person has
     between: dict[str, list[int]] = field(default_factory=dict)  #: numbers of each model's parameters that differ between people
-    shared: dict[str, list[str]] = field(default_factory=dict)  #: sentences on effects that could differ between people, but do not
+    shared: dict[str, list[str]] = field(default_factory=dict)  #: sentences on effects that vary within people
     numbers: dict[str, str] = field(default_factory=dict)  #: a numeric factor's unit
     sizes: dict[str, str] = field(default_factory=dict)  #: a numeric factor's standard deviation
     words: dict[str, list[str]] = field(default_factory=dict)  #: levels in order
@@ -169,7 +170,8 @@ def _add_model(rows: pd.DataFrame, measure: str, design: _Design) -> None:
 
 def _of_all_people(name: str, reason: str) -> str:
     return (
-        f"In this model, {name} has the same effect in all people, since {reason}. If people differ in it, its interval is too narrow."
+        f"In this model, {name} has the same effect in all people, since {reason}. If people differ in it, its interval is too "
+        "narrow."
     )
 
 

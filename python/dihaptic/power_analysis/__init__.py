@@ -78,6 +78,9 @@ def power(
 
     asked = Effect(effect)
     _check(n, draws, alpha, ratio, attrition, seed)
+    if laboratories in (1, 2):
+        what = f"cannot be {laboratories}: fewer than three do not show how laboratories differ"
+        raise error(what, "Give three or more, or leave this out.", key="laboratories")
     if smallest_effect is not None and not 0 < abs(smallest_effect) < np.inf:
         remedy = "Give the smallest effect of interest, in the unit of the effect, with its sign."
         raise error("must be a number other than zero", remedy, key="smallest_effect")

@@ -33,9 +33,9 @@ _MOST_DOUBT = 0.2
 _CURVE = 12
 #: What a pool of one laboratory, and one of several, cannot show of laboratories.
 _LABORATORIES = {
-    False: "How laboratories differ. These people come from one laboratory; groups of real people on one schedule differ by "
-    "more than their people's scatter explains (docs/manual/explanation/simulated-people.md). The power of your laboratory may "
-    "lie outside every interval here. Rehearse people of several (--laboratories).",
+    False: "How laboratories differ. These people come from one laboratory, or from too few; groups of real people on one "
+    "schedule differ by more than their people's scatter explains (docs/manual/explanation/simulated-people.md). The power "
+    "of your laboratory may lie outside every interval here. Rehearse people of several (--laboratories).",
     True: "How laboratories differ, but for the traits that have between_laboratories in the population's file: in all others, "
     "and in how they instruct and select people, these laboratories are alike.",
 }
