@@ -21,6 +21,8 @@ struct PowerOptions {
     double ratio = 1;
     double attrition = 0;
     std::optional<double> smallest_effect;
+    double bayes_factor = 10;
+    bool sequential = false;
     std::string population;
     int laboratories = 0;
     int seed = 1;
@@ -37,6 +39,7 @@ std::vector<std::string> words_of(const PowerOptions& o) {
                                  fmt::format("--alpha={}", o.alpha),
                                  fmt::format("--ratio={}", o.ratio),
                                  fmt::format("--attrition={}", o.attrition),
+                                 fmt::format("--bayes-factor={}", o.bayes_factor),
                                  fmt::format("--laboratories={}", o.laboratories),
                                  fmt::format("--seed={}", o.seed),
                                  fmt::format("--jobs={}", o.jobs),
@@ -45,6 +48,7 @@ std::vector<std::string> words_of(const PowerOptions& o) {
                                  "--out=" + o.out,
                                  "--n"};
     for (const int n : o.n) out.push_back(fmt::format("{}", n));
+    if (o.sequential) out.push_back("--sequential");
     if (o.smallest_effect) out.push_back(fmt::format("--smallest-effect={}", *o.smallest_effect));
     return out;
 }
@@ -70,6 +74,21 @@ void add_options_of_pool(CLI::App& command, PowerOptions& options) {
                        "number of people at a time; default: one on each processor");
 }
 
+void add_options_of_test(CLI::App& command, PowerOptions& options) {
+    command.add_option(
+        "--test", options.test,
+        "t, wilcoxon, bayes or, for two groups, welch; default: t, or welch for two groups");
+    command.add_option("--alpha", options.alpha, "significance level of the two-sided test")
+        ->capture_default_str();
+    command
+        .add_option("--bayes-factor", options.bayes_factor,
+                    "Bayes factor above which the test bayes finds the effect")
+        ->capture_default_str();
+    command.add_flag("--sequential", options.sequential,
+                     "test one study after each number of --n, and end it at the first test that "
+                     "finds the effect");
+}
+
 }  // namespace
 
 void add_power(CLI::App& app) {
@@ -93,11 +112,7 @@ void add_power(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--draws", options->draws, "number of samples of each size")
         ->capture_default_str();
-    command->add_option(
-        "--test", options->test,
-        "t, wilcoxon or, for two groups, welch; default: t, or welch for two groups");
-    command->add_option("--alpha", options->alpha, "significance level of the two-sided test")
-        ->capture_default_str();
+    add_options_of_test(*command, *options);
     command
         ->add_option("--ratio", options->ratio,
                      "number of people in the second group for one in the first")
@@ -114,7 +129,9 @@ void add_power(CLI::App& app) {
         "\nA folder in it, named after the effect, gets power.html, a page for a preregistration; "
         "the "
         "figure\n"
-        "power.svg, .pdf and .png; and power.csv, power-by-n.csv and effect-of-people.csv. The "
+        "power.svg, .pdf and .png; and power.csv, power-by-n.csv (power-by-look.csv of a "
+        "sequential study)\n"
+        "and effect-of-people.csv. The "
         "pool is in the "
         "folder\n"
         "pool: if the command is interrupted, the same command continues it.\n"

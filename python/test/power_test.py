@@ -18,8 +18,9 @@ from scipy import stats
 os.environ.setdefault("MPLBACKEND", "agg")
 import dihaptic as dh  # noqa: E402
 from dihaptic import figures  # noqa: E402
-from dihaptic.power_analysis.draws import find_effect, smallest_size  # noqa: E402
+from dihaptic.power_analysis.draws import find_effect, look_repeatedly, smallest_size  # noqa: E402
 from dihaptic.power_analysis.effect import Effect  # noqa: E402
+from dihaptic.power_analysis.evidence import bayes_factor, levels_of_factor, levels_of_looks  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "test"))
 import needs  # noqa: E402
@@ -131,6 +132,60 @@ class Draws(unittest.TestCase):
             self.assertTrue(may_be <= n <= probably, (may_be, n, probably))
         none = smallest_size(lambda n: find_effect([NORMAL], [n], 500, "t", 0.05, 1), 0.8, 50)
         self.assertEqual(none[0], None)
+
+
+class Evidence(unittest.TestCase):
+    def test_looks_have_the_published_boundaries(self):
+        # z values at equally spaced looks, as printed by the programs of Reboussin, DeMets, Kim and Lan (2000), alpha = 0.05
+        for ends in ([2.9626, 1.9686], [3.7103, 2.5114, 1.9930], [4.3326, 2.9631, 2.3590, 2.0141],
+                     [4.8769, 3.3569, 2.6803, 2.2898, 2.0310]):  # fmt: skip
+            levels = levels_of_looks(np.arange(1, len(ends) + 1) / len(ends), 0.05)
+            np.testing.assert_allclose(stats.norm.isf(np.array(levels) / 2), ends, atol=2e-4)
+
+    def test_looks_at_any_times_keep_the_level(self):
+        for shares, alpha in (([0.3, 0.35, 0.9, 1], 0.05), ([0.98, 1], 0.05), ([0.1, 0.2, 1], 0.01), (np.arange(20, 41) / 40, 0.05)):
+            z = np.cumsum(np.random.default_rng(7).normal(0, np.sqrt(np.diff(shares, prepend=0)), (400000, len(shares))), axis=1)
+            ends = stats.norm.isf(np.array(levels_of_looks(shares, alpha)) / 2)
+            crossed = (np.abs(z / np.sqrt(shares)) > ends).any(axis=1).mean()
+            self.assertAlmostEqual(crossed, alpha, delta=4 * np.sqrt(alpha / 400000))
+
+    def test_bayes_factors_are_those_that_others_publish(self):
+        # of the sleep data by R's package BayesFactor, and of the examples of Python's pingouin
+        for t, sizes, factor in ((-4.062128, [10], 17.25888), (3.5, [20], 17.185), (3.5, [20, 20], 26.743)):
+            self.assertAlmostEqual(bayes_factor(t, sizes) / factor, 1, delta=1e-4)
+        # with more and more people, exp(t^2 / 2) over how much larger than the standard error the prior is
+        t, n, prior = 4.0, 1e8, np.sqrt(0.5)
+        large = np.exp(t**2 / 2) * np.sqrt(2 * np.pi / n) / (np.pi * prior * (1 + t**2 / n / prior**2))
+        self.assertAlmostEqual(bayes_factor(t, [int(n)]) / large, 1, delta=1e-3)
+
+    def test_factors_have_the_power_of_the_noncentral_t(self):
+        for d, sizes in ((0.8, [12]), (0.8, [30]), (1, [15, 20])):
+            pool = [NORMAL + d, NORMAL][: len(sizes)]
+            for factor in (3, 10):
+                level, none = levels_of_factor(factor, sizes)
+                found = find_effect(pool, sizes, 4000, "bayes", 0.05, 3, levels=(level, none))
+                n, m = [*sizes, 0][:2]
+                exact = of_two_samples(d, n, m, level) if m else of_one_sample(d, n, level)
+                self.assertLess(abs(found.power - exact), 3.3 * np.sqrt(exact * (1 - exact) / 4000) + 1e-3)
+        level, none = levels_of_factor(3, [40])
+        found = find_effect([NORMAL], [40], 4000, "bayes", 0.05, 3, levels=(level, none))
+        self.assertAlmostEqual(found.for_none, 1 - none, delta=0.025)  # p is uniform there
+        self.assertAlmostEqual(bayes_factor(stats.t.isf(none / 2, 39), [40]), 1 / 3, delta=1e-6)
+        self.assertEqual(levels_of_factor(10, [5])[1], 1)  # so few people can never show that there is none
+
+    def test_a_sequential_study_ends_as_samples_that_are_tested_one_by_one(self):
+        pool, n = NORMAL[5::10] + 0.7, [8, 14, 20]
+        levels = levels_of_looks([each / 20 for each in n], 0.05)
+        looks = look_repeatedly([pool], [[each] for each in n], 4000, "t", [(level, np.inf) for level in levels], 2)
+        people = np.random.default_rng(1).normal(0.7, 1, (20, 20000))
+        goes_on = np.ones(20000, dtype=bool)
+        for each, level, look in zip(n, levels, looks):
+            finds = goes_on & (stats.ttest_1samp(people[:each], 0, axis=0).pvalue < level)
+            goes_on &= ~finds
+            self.assertAlmostEqual(look.found, 1 - goes_on.mean(), delta=0.03)
+            self.assertAlmostEqual(look.exaggeration, people[:each, finds].mean() / 0.7, delta=0.04)
+        none = look_repeatedly([NORMAL], [[each] for each in n], 20000, "t", [(level, np.inf) for level in levels], 2)
+        self.assertAlmostEqual(none[-1].found, 0.05, delta=0.008)
 
 
 class Pools(unittest.TestCase):
@@ -246,6 +301,29 @@ class Pools(unittest.TestCase):
         self.assertIn("Sought is the smallest effect of interest, -0.02, Cohen's d = ", result.in_words())
         self.assertNotIn("The effect compares people with a fixed number", text)
         self.assertNotIn("cannot tell this effect from zero", text)
+
+    def test_a_study_is_tested_while_its_people_come(self):
+        options = {"draws": 400, "smallest_effect": 0.02}
+        result = dh.power(self.pool, "mean(preload_s) - 0.09", [6, 10, 14], sequential=True, **options)
+        looks = result.looks
+        self.assertEqual(looks.n.tolist(), [6, 10, 14])
+        self.assertTrue((looks.found.diff()[1:] >= 0).all() and (looks.found <= result.table.power).all())
+        self.assertAlmostEqual(looks.ends.sum(), 1)
+        self.assertAlmostEqual(result.people_on_average, (looks.n * looks.ends).sum())
+        self.assertIn("The data are tested after 6, 10 and 14 people, and the study ends at the first test", result.in_words())
+        page = result.save(Path(self.folder.name, "sequential"))
+        self.assertIn("Power of a single test", page.read_text())
+        np.testing.assert_allclose(pd.read_csv(page.parent / "power-by-look.csv"), looks)
+        bayes = dh.power(self.pool, "mean(preload_s) - 0.09", [6, 40], test="bayes", bayes_factor=3, sequential=True, **options)
+        self.assertEqual(bayes.looks.for_none[0], 0)
+        self.assertIn("above 3 or below 1/3", bayes.in_words())
+        self.assertIn("no effect found", bayes.save(Path(self.folder.name, "bayes")).read_text())
+        self.assertIsNone(dh.power(self.pool, "mean(preload_s) - 0.09", [6], **options).looks)
+        for n in ([6], [10, 6], [6, 6]):
+            self.refused("must be two or more rising numbers", lambda n=n: dh.power(self.pool, DIFFERENCE, n, sequential=True))
+        self.refused("nobody is added", lambda: dh.power(self.pool, DIFFERENCE, [8, 9], attrition=0.5, sequential=True))
+        for factor in (1, 0, -3, float("nan"), float("inf")):
+            self.refused("must be above 1", lambda factor=factor: dh.power(self.pool, DIFFERENCE, bayes_factor=factor))
 
     def mean_preload(self):
         return Effect("mean(preload_s)").sides(self.data)[0].mean()

@@ -17,6 +17,7 @@ import pandas as pd  # noqa: E402
 from scipy import stats  # noqa: E402
 
 from dihaptic.power_analysis.draws import find_effect, smallest_size  # noqa: E402
+from dihaptic.power_analysis.evidence import bayes_factor, levels_of_factor, levels_of_looks  # noqa: E402
 
 NORMAL = stats.norm.ppf((np.arange(5000) + 0.5) / 5000)
 
@@ -88,6 +89,31 @@ class Power(unittest.TestCase):
         p = stats.ttest_ind(rng.normal(2, 3, (10, 20000)), rng.normal(0, 1, (25, 20000)), equal_var=False).pvalue
         found = find_effect([3 * NORMAL + 2, NORMAL], [10, 25], 4000, "welch", 0.05, 1)
         self.assertAlmostEqual(found.power, (p < 0.05).mean(), delta=0.03)
+
+    def test_looks_after_half_and_three_quarters_have_the_levels_of_gsdesign(self):
+        levels = levels_of_looks([0.5, 0.75, 1], 0.05)
+        np.testing.assert_allclose(levels, [0.0031, 0.0183, 0.044], atol=6e-5)
+        np.testing.assert_allclose(stats.norm.isf(np.array(levels) / 2), [2.963, 2.359, 2.014], atol=6e-4)
+        effect = "mean(static_grip_N, block=heavy) - mean(static_grip_N, block=light)"
+        said = self.power(effect, "--n", "12,18,24", "--smallest-effect", "0.3", "--sequential")[0]
+        self.assertIn("p is below 0.0031, 0.018 and 0.044, in turn", said)
+
+    def test_an_early_look_spends_what_gsdesign_says(self):
+        self.assertAlmostEqual(levels_of_looks([0.2587722, 1], 0.05)[0] / 2 / 1.052152e-05, 1, delta=1e-5)
+
+    def test_a_look_shortly_before_the_end_has_a_level(self):
+        for share in (0.9, 0.99, 0.999, 0.9999):
+            first, last = levels_of_looks([share, 1], 0.05)
+            self.assertTrue(0 < last < 0.05 and 0 < first < 0.05, (share, first, last))
+
+    def test_an_extreme_t_has_a_bayes_factor_without_end(self):
+        self.assertEqual(bayes_factor(1000, [100, 100]), float("inf"))
+        self.assertEqual(bayes_factor(-1000, [100, 100]), float("inf"))
+
+    def test_a_hundred_thousand_values_have_a_bayes_factor(self):
+        for sizes in ([51000, 51159], [10000]):
+            self.assertTrue(0 < bayes_factor(2, sizes) < 1)
+            self.assertTrue(0 < levels_of_factor(3, sizes)[0] < levels_of_factor(3, sizes)[1] < 1)
 
 
 unittest.main(argv=sys.argv[:1])

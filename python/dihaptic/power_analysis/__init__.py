@@ -46,6 +46,8 @@ def power(
     ratio: float = 1,
     attrition: float = 0,
     smallest_effect: float | None = None,
+    bayes_factor: float = 10,
+    sequential: bool = False,
     population: str | Path = "",
     laboratories: int = 0,
     seed: int = 1,
@@ -61,8 +63,11 @@ def power(
     people recruited in each group; the second group has `ratio` times as many. The share `attrition` of them is lost before
     the analysis. `smallest_effect` is the smallest effect of interest, in the unit of the effect: the samples then have this
     effect on average, and people's scatter as simulated. `test`: "t" or "wilcoxon" for one value of each person; "welch", "t"
-    or "wilcoxon" (rank sum) for groups; all are two-sided, at the level `alpha`. `draws` samples are made for each n. People
-    who come from `laboratories` show the power in a median one, and in one of the tenth percentile. Raises Error.
+    or "wilcoxon" (rank sum) for groups; all are two-sided, at the level `alpha`. "bayes" finds the effect where the Bayes factor
+    of the t test exceeds `bayes_factor`. A `sequential` study is tested after each `n`, and ends at the first test that finds the
+    effect, at levels that keep `alpha` (or whose Bayes factor is below 1 / `bayes_factor`): see `looks` of the result. `draws`
+    samples are made for each n. People who come from `laboratories` show the power in a median one, and in one of the tenth
+    percentile. Raises Error.
 
     >>> import dihaptic as dh
     >>> pool = dh.rehearse("experiments/first-trials.yaml", 12, out=f"{folder}/pool", progress=False)
@@ -78,6 +83,10 @@ def power(
 
     asked = Effect(effect)
     _check(n, draws, alpha, ratio, attrition, seed)
+    if not 1 < bayes_factor <= 1e6:
+        raise error("must be above 1, and at most a million", "10 is usual; some journals ask for 6.", key="bayes_factor")
+    if sequential and (len(n) < 2 or list(n) != sorted(set(n))):
+        raise error("must be two or more rising numbers, after which a sequential study is tested", "Write e.g. 12, 18, 24.", key="n")
     if laboratories in (1, 2):
         what = f"cannot be {laboratories}: fewer than three do not show how laboratories differ"
         raise error(what, "Give three or more, or leave this out.", key="laboratories")
@@ -112,12 +121,17 @@ def power(
             raise error(f"is infinite for {some}", "Divide by a number that is never zero.", key=effect)
         if side.std() <= 1e-9 * abs(side.mean()):
             raise error("is the same for all people, so that it needs no test", "Name a column that differs.", key=effect)
-    result = Power(data, asked, sides, list(n), draws, name, alpha, ratio, attrition, seed, smallest_effect)
+    result = Power(
+        data, asked, sides, list(n), draws, name, alpha, ratio, attrition, seed, smallest_effect, bayes_factor, sequential
+    )
     if not 1e-6 < abs(result.standardised) < 1e6 and smallest_effect is not None:
         what = f"is {result.standardised:.2g} standard deviations of people"
         raise error(what, "Give it in the unit of the effect.", key="smallest_effect")
     if min(n) < result.fewest:
         raise error(f"leaves fewer than 3 people for a test; {result.fewest} must be recruited", "Recruit more.", key="n")
+    analysed = [sum(result.sizes(each)) for each in n]
+    if sequential and any(later <= earlier for earlier, later in zip(analysed, analysed[1:])):
+        raise error("has looks between which nobody is added to the analysis", "Leave more people between them.", key="n")
     return result
 
 

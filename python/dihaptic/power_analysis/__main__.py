@@ -21,7 +21,8 @@ def main(words: list[str]) -> int:
     for name, default in (("people", 200), ("draws", 500), ("seed", 1), ("jobs", os.cpu_count() or 1)):
         parser.add_argument(f"--{name}", type=int, default=default)
     parser.add_argument("--laboratories", type=int, default=0)
-    for name, share in (("alpha", 0.05), ("ratio", 1.0), ("attrition", 0.0)):
+    parser.add_argument("--sequential", action="store_true")
+    for name, share in (("alpha", 0.05), ("ratio", 1.0), ("attrition", 0.0), ("bayes-factor", 10.0)):
         parser.add_argument(f"--{name}", type=float, default=share)
     parser.add_argument("--smallest-effect", type=float)
     for name in ("test", "population", "out"):
@@ -39,9 +40,11 @@ def main(words: list[str]) -> int:
             result = power(
                 asked.path, asked.effect, asked.n, people=asked.people, draws=asked.draws, test=asked.test, alpha=asked.alpha,
                 ratio=asked.ratio, attrition=asked.attrition, smallest_effect=asked.smallest_effect, population=asked.population,
-                laboratories=asked.laboratories, seed=asked.seed, jobs=asked.jobs, out=out,
+                laboratories=asked.laboratories, seed=asked.seed, jobs=asked.jobs, out=out, bayes_factor=asked.bayes_factor,
+                sequential=asked.sequential,
             )  # fmt: skip
             of = "" if asked.smallest_effect is None else f" of {asked.smallest_effect:g}".replace("-", "minus ")
+            of += f" by {asked.test}" * bool(asked.test) + " sequential" * asked.sequential
             page = result.save(out / _in_a_name(asked.effect + of))
     except KeyboardInterrupt:
         print("interrupted: the people who have finished are kept, and the same command continues", file=sys.stderr)
@@ -52,9 +55,10 @@ def main(words: list[str]) -> int:
     except OSError as why:
         print(f"{out}: error: cannot be written: {why.strerror}. Name another folder with --out.", file=sys.stderr)
         return 2
-    columns = ["n", "power", "low", "high", "wrong_sign", "exaggeration", "half_width", "laboratory_50", "laboratory_10"]
-    shown = result.table[[name for name in columns if name in result.table]]
-    print(shown.to_string(index=False, float_format=lambda value: f"{value:.3g}", na_rep="-"))
+    columns = ["n", "power", "low", "high", "for_none", "wrong_sign", "exaggeration", "half_width", "laboratory_50", "laboratory_10"]
+    tables = [result.table[[name for name in columns if name in result.table]]]
+    for table in tables if result.looks is None else [result.looks, *tables]:
+        print(table.to_string(index=False, float_format=lambda value: f"{value:.3g}", na_rep="-"))
     print(result.in_words())
     for text in warnings_of(result):
         print(f"warning: {text}", file=sys.stderr)

@@ -31,6 +31,16 @@ class Found:
     exaggeration: float  #: type M error: mean size of the significant estimates, relative to the size of the effect
     untested: float  #: share of samples that cannot be tested, e.g. because all people are alike; they find no effect
     half_width: float  #: median half width of the test's confidence interval; NaN for ranks
+    for_none: float  #: share of samples that show that there is no effect; only Bayes factors can
+
+
+@dataclass(frozen=True)
+class Look:
+    """The results of one look at samples that grow from look to look, and end at the first that finds the effect."""
+
+    found: float  #: share of samples that have found it here or before
+    for_none: float  #: share of samples that have ended here or before because they show that there is no effect
+    exaggeration: float  #: type M error of those that find it here; NaN: there are none
 
 
 def _within_t(x: Array, _: Array | None) -> Array:
@@ -53,9 +63,12 @@ def _between_ranks(x: Array, y: Array | None) -> Array:
     return np.asarray(stats.mannwhitneyu(x, y, axis=0, method="asymptotic").pvalue)
 
 
-#: Tests by name, for a value of each person that is compared with zero, and for two groups of people.
-WITHIN: dict[str, Callable[[Array, Any], Array]] = {"t": _within_t, "wilcoxon": _within_ranks}
-BETWEEN: dict[str, Callable[[Array, Any], Array]] = {"welch": _between_welch, "t": _between_t, "wilcoxon": _between_ranks}
+#: Tests by name, for a value of each person that is compared with zero, and for two groups of people. A Bayes factor is that of
+#: a t test, whose p value tells it (evidence.levels_of_factor).
+WITHIN: dict[str, Callable[[Array, Any], Array]] = {"t": _within_t, "wilcoxon": _within_ranks, "bayes": _within_t}
+BETWEEN: dict[str, Callable[[Array, Any], Array]] = {
+    "welch": _between_welch, "t": _between_t, "wilcoxon": _between_ranks, "bayes": _between_t,
+}  # fmt: skip
 
 
 def test_named(name: str, between: bool) -> tuple[str, Callable[[Array, Any], Array]]:
@@ -69,16 +82,65 @@ def test_named(name: str, between: bool) -> tuple[str, Callable[[Array, Any], Ar
 
 
 def find_effect(
-    pool: list[Array], sizes: list[int], draws: int, test: str, alpha: float, seed: int, spread: float = 1
-) -> Found:
+    pool: list[Array], sizes: list[int], draws: int, test: str, alpha: float, seed: int, spread: float = 1,
+    levels: tuple[float, float] | None = None,
+) -> Found:  # fmt: skip
     """Draws samples with replacement from a pool, and tests each of them (two-sided).
 
     `pool` has the values of all people, or of those of two groups; `sizes` are the numbers of people in a sample, one
-    for each. `spread` multiplies the deviations of people from the mean of their group. The same seed gives the same
-    samples, and a larger sample contains the people of a smaller one, so that curves over n are smooth.
+    for each. `spread` multiplies the deviations of people from the mean of their group. `levels` are the p value below which
+    a sample finds the effect, and that above which it shows that there is none; without them, `alpha` is the first. The same
+    seed gives the same samples, and a larger sample contains the people of a smaller one, so that curves over n are smooth.
     """
     pool = [values.mean() + spread * (values - values.mean()) for values in pool]
     true = pool[0].mean() - (pool[1].mean() if len(pool) == 2 else 0)
+    p, estimates, halves = _test_samples(pool, sizes, draws, test, alpha, seed)
+    below, above = levels or (alpha, np.inf)
+    is_found = p < below  # excludes samples without a p
+    found = estimates[is_found]
+    low, high = wilson(is_found.sum(), draws)
+    return Found(
+        draws=draws,
+        power=float(is_found.mean()),
+        low=float(low),
+        high=float(high),
+        wrong_sign=float((found * true < 0).mean()) if len(found) and true != 0 else float("nan"),
+        exaggeration=_exaggeration(found, true),
+        untested=float(np.isnan(p).mean()),
+        half_width=float(np.nanmedian(halves)) if len(halves) else float("nan"),
+        for_none=float((p > above).mean()),
+    )
+
+
+def look_repeatedly(
+    pool: list[Array], sizes: list[list[int]], draws: int, test: str, levels: list[tuple[float, float]], seed: int
+) -> list[Look]:
+    """Draws samples that grow to these sizes, from the smallest to the largest, and tests each at every size.
+
+    A sample ends at the first test whose p value is below the first of its `levels`, which finds the effect, or above the
+    second, which shows that there is none. The arguments are those of find_effect(), with a list entry for each look.
+    """
+    true = pool[0].mean() - (pool[1].mean() if len(pool) == 2 else 0)
+    goes_on = np.ones(draws, dtype=bool)
+    looks, found, none = [], 0.0, 0.0
+    for own, (below, above) in zip(sizes, levels):
+        p, estimates, _ = _test_samples(pool, own, draws, test, 0.05, seed)
+        finds, shows_none = goes_on & (p < below), goes_on & (p > above)
+        found, none = found + float(finds.mean()), none + float(shows_none.mean())
+        looks.append(Look(found, none, _exaggeration(estimates[finds], true)))
+        goes_on &= ~(finds | shows_none)
+    return looks
+
+
+def _exaggeration(estimates: Array, true: float) -> float:
+    return float(np.abs(estimates).mean() / abs(true)) if len(estimates) and true != 0 else float("nan")
+
+
+def _test_samples(
+    pool: list[Array], sizes: list[int], draws: int, test: str, alpha: float, seed: int
+) -> tuple[Array, Array, Array]:
+    """The p value of each sample (NaN for one that cannot be tested), its estimate, and half the width of its confidence
+    interval, for tests that have one."""
     _, p_of = test_named(test, len(pool) == 2)
     p, estimates, halves = [], [], []
     for first in range(0, draws, _PORTION):
@@ -97,20 +159,7 @@ def find_effect(
         estimates.append(samples[0].mean(0) - (samples[1].mean(0) if len(samples) == 2 else 0))
         if test != "wilcoxon":
             halves.append(half_width(samples, test, alpha))
-    all_p = np.concatenate(p)
-    is_found = all_p < alpha  # excludes samples without a p
-    found = np.concatenate(estimates)[is_found]
-    low, high = wilson(is_found.sum(), draws)
-    return Found(
-        draws=draws,
-        power=float(is_found.mean()),
-        low=float(low),
-        high=float(high),
-        wrong_sign=float((found * true < 0).mean()) if len(found) and true != 0 else float("nan"),
-        exaggeration=float(np.abs(found).mean() / abs(true)) if len(found) and true != 0 else float("nan"),
-        untested=float(np.isnan(all_p).mean()),
-        half_width=float(np.nanmedian(np.concatenate(halves))) if halves else float("nan"),
-    )
+    return np.concatenate(p), np.concatenate(estimates), np.concatenate(halves) if halves else np.empty(0)
 
 
 def half_width(samples: list[Array], test: str, alpha: float) -> Array:
@@ -119,7 +168,7 @@ def half_width(samples: list[Array], test: str, alpha: float) -> Array:
     variances = [sample.var(0, ddof=1) for sample in samples]
     if len(samples) == 1:
         return np.asarray(stats.t.ppf(1 - alpha / 2, n[0] - 1) * np.sqrt(variances[0] / n[0]))
-    if test == "t":
+    if test != "welch":
         free = n[0] + n[1] - 2
         pooled = ((n[0] - 1) * variances[0] + (n[1] - 1) * variances[1]) / free
         return np.asarray(stats.t.ppf(1 - alpha / 2, free) * np.sqrt(pooled * (1 / n[0] + 1 / n[1])))

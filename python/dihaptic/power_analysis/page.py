@@ -39,6 +39,11 @@ _LABORATORIES = {
     True: "How laboratories differ, but for the traits that have between_laboratories in the population's file: in all others, "
     "and in how they instruct and select people, these laboratories are alike.",
 }
+_CAPTION_OF_LOOKS = (
+    "The study is tested after these numbers of people, and ends at the first test whose two-sided p value is below the level. "
+    "Then the share of samples that end here; the share that has found the effect by now; and the share that would have found one "
+    "if there were none. Exaggeration: mean size of the estimates that find the effect here, over the true one."
+)
 #: What no pool of this program can show, whatever the experiment.
 _NOT_KNOWN = [
     "Whether the true effect is as large as the one that is sought here. The intervals reflect only the numbers of samples "
@@ -131,12 +136,17 @@ def write_page(result: Power, folder: Path) -> Path:
                         for side, group in zip(result.sides, result.effect.groups or [""])])  # fmt: skip
     write(folder / "effect-of-people.csv", people.to_csv(index=False).encode())
     simulated = "Simulated. No person took part." if result.data.is_simulated else ""
+    if result.looks is not None:
+        write(folder / "power-by-look.csv", result.looks.to_csv(index=False).encode())
     page = Page(f"Power: {result.data.title}", simulated, f"Made by dihaptic {version()}.")
     page.heading("Result")
     page.text(result.in_words())
     for text in warnings_of(result):
         page.text(text, "warning")
-    page.heading("Power")
+    if result.looks is not None:
+        page.heading("Looks")
+        page.table(_shown_looks(result, who), _CAPTION_OF_LOOKS, keys=1)
+    page.heading("Power" if result.looks is None else "Power of a single test")
     svg = (folder / "power.svg").read_text(encoding="utf-8")
     caption = (
         f"Band: 95 % interval from {result.draws} samples of each size. Broken lines: if people differed less, or more, than "
@@ -145,8 +155,8 @@ def write_page(result: Power, folder: Path) -> Path:
     page.figure(svg, "Power against the number of people", caption, "power", points.to_csv(index=False))
     caption = (
         "Power with its 95 % interval from the number of samples; its middle 95 % if the pool were other people of the "
-        "population. Of the significant estimates: the share with the wrong sign (type S), and their mean size over the true one "
-        "(type M). Half width: of the confidence interval, the median. Then the power if people's spread were another."
+        "population. Of the estimates that the test finds: the share with the wrong sign (type S), and their mean size over the true "
+        "one (type M). Half width: of the confidence interval, the median. Then the power if people's spread were another."
         + " Last, the powers that half, and nine in ten, of further laboratories exceed." * ("laboratory_50" in result.table)
     )
     page.table(_shown(result, who), caption, keys=1)
@@ -241,6 +251,19 @@ def _drivers(result: Power) -> list[str]:
     ]
 
 
+def _shown_looks(result: Power, who: str) -> pd.DataFrame:
+    """The table of looks at the data."""
+    looks = result.looks
+    assert looks is not None
+    columns: dict[str, object] = {who: looks["n"], "level": [f"{level:.2g}" for level in looks["level"]]}
+    for name, words in (("ends", "ends here"), ("found", "effect found"), ("for_none", "no effect found")):
+        columns[words] = [f"{share:.2f}" for share in looks[name]]
+    if result.test != "bayes":
+        del columns["no effect found"]
+    columns["found without one"] = [f"{share:.3f}" for share in looks["false_alarm"]]
+    return pd.DataFrame({**columns, "exaggeration": looks["exaggeration"]})
+
+
 def _shown(result: Power, who: str) -> pd.DataFrame:
     """The table of the page."""
     table = result.table
@@ -251,6 +274,8 @@ def _shown(result: Power, who: str) -> pd.DataFrame:
         columns["analysed"] = table["analysed"]
     columns["power"] = [f"{row.power:.2f} ({row.low:.2f} to {row.high:.2f})" for row in table.itertuples()]
     columns["with other pools"] = [f"{row.pool_low:.2f} to {row.pool_high:.2f}" for row in table.itertuples()]
+    if "for_none" in table:
+        columns["no effect found"] = [f"{share:.2f}" for share in table["for_none"]]
     columns |= {name.replace("_", " "): table[name] for name in ("wrong_sign", "exaggeration", "half_width")}
     spreads = zip(table["spread_0.7"], table["spread_1.5"])
     columns["spread x 0.7, x 1.5"] = [f"{less:.2f}, {more:.2f}" for less, more in spreads]

@@ -13,8 +13,10 @@ from scipy import stats
 
 from .._facts import version
 from ..figures.data import Data
-from .draws import Array, Found, find_effect, half_width, smallest_size
+from ..reports.results import listed
+from .draws import Array, Found, find_effect, half_width, look_repeatedly, smallest_size
 from .effect import Effect
+from .evidence import PRIOR_SCALE, effective_size, levels_of_factor, levels_of_looks
 
 #: Factors on the spread of people, for the sensitivity of the power to it.
 SPREADS = (0.7, 1.0, 1.5)
@@ -43,6 +45,8 @@ class Power:
     attrition: float
     seed: int
     smallest_effect: float | None = None  #: the smallest effect of interest, in place of that of the pool
+    bayes_factor: float = 10  #: the Bayes factor above which the test "bayes" finds the effect
+    is_sequential: bool = False  #: whether `n` are looks at the data of one study
     _known: dict[tuple[int, float], Found] = field(default_factory=dict, repr=False)
 
     def __repr__(self) -> str:
@@ -73,26 +77,36 @@ class Power:
     def at(self, n: int, spread: float = 1) -> Found:
         """The power with n people recruited (in each group). `spread` multiplies the deviations of people."""
         if (n, spread) not in self._known:
-            found = find_effect(self._pool, self._sizes(n), self.draws, self.test, self.alpha, self.seed, spread)
-            self._known[n, spread] = found
+            self._known[n, spread] = self._find(self._pool, n, spread=spread)
         return self._known[n, spread]
+
+    def _find(self, pool: list[Array], n: int, draws: int = 0, more: int = 0, spread: float = 1) -> Found:
+        """The power with n people of a pool; `more` is added to the seed."""
+        sizes = self.sizes(n)
+        return find_effect(pool, sizes, draws or self.draws, self.test, self.alpha, self.seed + more, spread, self._levels(sizes))
+
+    def _levels(self, sizes: list[int]) -> tuple[float, float]:
+        """The p values below which a test finds the effect, and above which it shows that there is none."""
+        return levels_of_factor(self.bayes_factor, sizes) if self.test == "bayes" else (self.alpha, math.inf)
 
     @cached_property
     def table(self) -> pd.DataFrame:
         """A row for each n: the power, with its 95 % interval from the number of draws (low, high), and the range that it
         might have with other pools of this size (pool_low, pool_high); wrong_sign and exaggeration of significant estimates
         (errors of type S and M); half_width of the confidence interval; untested, the share of samples without a test; and
-        the power if people differed less, or more (spread_0.7, spread_1.5); and, of people who come from laboratories, the
-        power in a median laboratory, and in one of the tenth percentile (laboratory_50, laboratory_10)."""
+        the power if people differed less, or more (spread_0.7, spread_1.5); of Bayes factors, the share of samples that show
+        that there is no effect (for_none); and, of people who come from laboratories, the power in a median laboratory, and in
+        one of the tenth percentile (laboratory_50, laboratory_10)."""
         rows = []
         for n in self.n:
             found = self.at(n)
             low, high = self._interval_of_pool(n)
             rows.append({
-                "n": n, "analysed": sum(self._sizes(n)), "power": found.power, "low": found.low, "high": found.high,
+                "n": n, "analysed": sum(self.sizes(n)), "power": found.power, "low": found.low, "high": found.high,
                 "pool_low": low, "pool_high": high, "wrong_sign": found.wrong_sign, "exaggeration": found.exaggeration,
                 "half_width": found.half_width, "untested": found.untested,
                 **{f"spread_{spread:g}": self.at(n, spread).power for spread in SPREADS if spread != 1},
+                **({"for_none": found.for_none} if self.test == "bayes" else {}),
                 **{f"laboratory_{share}": power for share, power in self.in_laboratories(n).items()},
             })  # fmt: skip
         return pd.DataFrame(rows)
@@ -140,10 +154,41 @@ class Power:
         powers = []
         for t in stats.t.ppf((np.arange(_FURTHER) + 0.5) / _FURTHER, k - 1):
             effect = self.sought + t * spread * math.sqrt(1 + 1 / k)
-            found = find_effect([people[0] + effect, *people[1:]], self._sizes(n), self.draws, self.test, self.alpha, self.seed)
+            found = self._find([people[0] + effect, *people[1:]], n)
             wrong = 0.0 if math.isnan(found.wrong_sign) else found.wrong_sign
             powers.append(found.power * (1 - wrong if effect * self.sought > 0 else wrong))
         return {share: float(np.quantile(powers, share / 100)) for share in (50, 10)}
+
+    @cached_property
+    def looks(self) -> pd.DataFrame | None:
+        """A row for each look at the data of a sequential study: n; analysed; level, the two-sided p value below which the study
+        ends with the effect, as do the shares `found` of the samples by this look, and `false_alarm` if there were none;
+        for_none, the share that has ended because its Bayes factor speaks for no effect; ends, the share that ends here; and
+        exaggeration, the type M error of the estimates that find the effect here. None for a study of fixed size."""
+        if not self.is_sequential:
+            return None
+        sizes = [self.sizes(n) for n in self.n]
+        levels = [self._levels(each) for each in sizes]
+        if self.test != "bayes":
+            shares = [effective_size(each) / effective_size(sizes[-1]) for each in sizes]
+            levels = [(level, math.inf) for level in levels_of_looks(shares, self.alpha)]
+        pool = self._pool
+        effect = pool[0].mean() - (pool[1].mean() if len(pool) == 2 else 0)
+        looks = look_repeatedly(pool, sizes, self.draws, self.test, levels, self.seed)
+        without = look_repeatedly([pool[0] - effect, *pool[1:]], sizes, self.draws, self.test, levels, self.seed)
+        table = pd.DataFrame({
+            "n": self.n, "analysed": [sum(each) for each in sizes], "level": [level for level, _ in levels],
+            "found": [look.found for look in looks], "for_none": [look.for_none for look in looks],
+            "exaggeration": [look.exaggeration for look in looks], "false_alarm": [look.found for look in without],
+        })  # fmt: skip
+        over = table["found"] + table["for_none"]
+        over.iloc[-1] = 1
+        return table.assign(ends=over.diff().fillna(over))
+
+    @property
+    def people_on_average(self) -> float:
+        """The number of people recruited (in each group) when a study ends, on average."""
+        return float(max(self.n)) if self.looks is None else float((self.looks["n"] * self.looks["ends"]).sum())
 
     @cached_property
     def smallest(self) -> pd.DataFrame:
@@ -171,7 +216,7 @@ class Power:
         effect = sides[0].mean() - (sides[1].mean() if len(sides) == 2 else 0)
         return [sides[0] + self.smallest_effect - effect, *sides[1:]]
 
-    def _sizes(self, n: int) -> list[int]:
+    def sizes(self, n: int) -> list[int]:
         """How many of n recruited people remain, in each group."""
         recruited = [n, round(self.ratio * n)] if self.effect.is_between else [n]
         return [math.floor((1 - self.attrition) * each + 1e-9) for each in recruited]
@@ -180,7 +225,7 @@ class Power:
     def fewest(self) -> int:
         """The smallest number of people who must be recruited, so that three in each group are analysed."""
         n = 3
-        while min(self._sizes(n)) < 3:
+        while min(self.sizes(n)) < 3:
             n += 1
         return n
 
@@ -191,7 +236,7 @@ class Power:
         powers = []
         for i in range(_POOLS):
             pool = self._with_sought([values[rng.integers(0, len(values), len(values))] for values in self._pool])
-            powers.append(find_effect(pool, self._sizes(n), draws, self.test, self.alpha, self.seed + i).power)
+            powers.append(self._find(pool, n, draws, more=i).power)
         low, high = np.quantile(powers, [0.025, 0.975])
         return float(low), float(high)
 
@@ -199,7 +244,6 @@ class Power:
         """A paragraph for a preregistration."""
         who = " and ".join(f"{len(side)} simulated people{f' of group {group}' if group else ''}"
                            for side, group in zip(self.sides, self.effect.groups or [""]))  # fmt: skip
-        tests = {"t": "a t test", "welch": "Welch's t test", "wilcoxon": "Wilcoxon's test"}
         each = ""
         if self.effect.is_between:
             each = " in each group" if self.ratio == 1 else " in the first group"
@@ -214,16 +258,19 @@ class Power:
         text = (
             f"The effect {self.effect.text} was computed from {who} (population {population}, dihaptic {version()}): "
             f"{self.size:.3g} (95 % interval {low:.3g} to {high:.3g}){size}. {self.draws} samples of each size were drawn "
-            f"from them with replacement, and tested by {tests[self.test]} (two-sided, alpha = {self.alpha:g}; seed {self.seed})."
+            f"from them with replacement (seed {self.seed}), and tested by {self._test_in_words()}."
         )
+        text += self._looks_in_words(each)
         for row in self.smallest.itertuples():
             if pd.isna(row.n):
-                text += f" More than {MOST} people{each} are needed for a power of {100 * row.power:.0f} %."
+                text += f" More than {MOST} people{each} are needed for a power of {100 * row.power:.0f} %"
+                text += ", if they are tested only once." if self.is_sequential else "."
             else:
                 pool_low, pool_high = self._interval_of_pool(int(row.n))
+                once = " and a single test" if self.is_sequential else ""
                 text += (
-                    f" With {row.n} people{each} the power reaches {100 * row.power:.0f} %; with other pools of this size it "
-                    f"would be between {pool_low:.2f} and {pool_high:.2f}."
+                    f" With {row.n} people{each}{once} the power reaches {100 * row.power:.0f} %; with other pools of this size "
+                    f"it would be between {pool_low:.2f} and {pool_high:.2f}."
                 )
         some = self.smallest["n"].dropna()
         n = int(some.iloc[0]) if len(some) else max(self.n)
@@ -239,3 +286,31 @@ class Power:
             text += f" These are recruited; {100 * self.attrition:.0f} % of them are expected to be lost."
         return text
 
+    def _test_in_words(self) -> str:
+        if self.test == "bayes":
+            return (
+                f"the Bayes factor of a t test (two-sided, Cauchy prior with the scale {PRIOR_SCALE:.3f}), which finds the effect "
+                f"above {self.bayes_factor:g}"
+            )
+        tests = {"t": "a t test", "welch": "Welch's t test", "wilcoxon": "Wilcoxon's test"}
+        return f"{tests[self.test]} (two-sided, alpha = {self.alpha:g})"
+
+    def _looks_in_words(self, each: str) -> str:
+        """What becomes of a study whose data are looked at while they come; "" for one of fixed size."""
+        if self.looks is None:
+            return ""
+        last = self.looks.iloc[-1]
+        ends = f"the Bayes factor is above {self.bayes_factor:g} or below 1/{self.bayes_factor:g}"
+        if self.test != "bayes":
+            levels = listed([f"{level:.2g}" for level in self.looks["level"]])
+            ends = f"p is below {levels}, in turn (alpha spending of the O'Brien-Fleming type, Lan and DeMets 1983)"
+        text = (
+            f" The data are tested after {listed([str(n) for n in self.n])} people{each}, and the study ends at the first test at "
+            f"which {ends}. It then finds the effect in {100 * last.found:.0f} % of the samples"
+        )
+        text += f", finds that there is none in {100 * last.for_none:.0f} %" if self.test == "bayes" else ""
+        text += (
+            f", and has {self.people_on_average:.1f} people{each} on average; if there were no effect, "
+            f"{100 * last.false_alarm:.1f} % would find one."
+        )
+        return text
