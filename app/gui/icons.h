@@ -9,8 +9,8 @@
 namespace dihaptic::gui {
 
 namespace shapes {
-extern const std::string_view kBack, kFault, kForward, kHalted, kLook, kNext, kNote, kPause, kPlay,
-    kPrepare, kPrevious, kReady, kSkip, kStop, kTune, kWaiting;
+extern const std::string_view kBack, kFault, kForward, kHalted, kInformation, kLook, kNext, kNote,
+    kPause, kPlay, kPrepare, kPrevious, kQuestion, kReady, kSkip, kStop, kTune, kWaiting;
 }  // namespace shapes
 
 /// An icon for a button, which follows the theme, and is paler while the button is disabled.

@@ -30,9 +30,10 @@ double contrast(const QColor& a, const QColor& b) {
     return (light + 0.05) / (dark + 0.05);
 }
 
-/// Fusion, with three changes: fields and boxes have an edge that stands out from the background,
+/// Fusion, with four changes: fields and boxes have an edge that stands out from the background,
 /// which the style's own does not in the dark; what is chosen among buttons is marked; and buttons
-/// of dialogs have words only, as the style's icons are of another family.
+/// of dialogs have words only, and questions and warnings the window's icons, as the style's are of
+/// another family.
 class PlainFusion : public QProxyStyle {
   public:
     PlainFusion() : QProxyStyle("Fusion") {}
@@ -41,6 +42,27 @@ class PlainFusion : public QProxyStyle {
                   QStyleHintReturn* data) const override {
         if (hint == SH_DialogButtonBox_ButtonsHaveIcons) return 0;
         return QProxyStyle::styleHint(hint, option, widget, data);
+    }
+
+    int pixelMetric(PixelMetric metric, const QStyleOption* option,
+                    const QWidget* widget) const override {
+        if (metric == PM_MessageBoxIconSize) return 40;
+        return QProxyStyle::pixelMetric(metric, option, widget);
+    }
+
+    QIcon standardIcon(StandardPixmap what, const QStyleOption* option,
+                       const QWidget* widget) const override {
+        switch (what) {
+            case SP_MessageBoxQuestion:
+                return icon(shapes::kQuestion);
+            case SP_MessageBoxInformation:
+                return icon(shapes::kInformation);
+            case SP_MessageBoxWarning:
+            case SP_MessageBoxCritical:
+                return icon(shapes::kFault);
+            default:
+                return QProxyStyle::standardIcon(what, option, widget);
+        }
     }
 
     void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,

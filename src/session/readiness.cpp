@@ -29,11 +29,13 @@ Finding devices_of(const Plan& plan) {
 }
 
 Finding calibration_of(const Plan& plan, const std::string& today) {
+    if (!plan.rig.calibrated && !rig::is_real(plan.rig))
+        return {"calibration", "simulated devices need none", true, Remedy::none, ""};
     Finding out{"calibration", "", true, Remedy::calibrate, ""};
     if (!plan.rig.calibrated) {
         out.found = "the rig has none: positions are as reported by the devices";
         out.how = "Calibrate the rig.";
-        out.good = !rig::is_real(plan.rig);
+        out.good = false;
         return out;
     }
     const std::optional<int> days = rig::days_between(plan.rig.calibrated->date, today);

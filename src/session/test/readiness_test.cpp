@@ -31,6 +31,7 @@ TEST(Readiness, OfASimulatedRigNeedsNoCalibration) {
     EXPECT_TRUE(of(all, "devices").good);
     EXPECT_NE(of(all, "devices").found.find("no device moves"), std::string::npos);
     EXPECT_TRUE(of(all, "calibration").good);
+    EXPECT_EQ(of(all, "calibration").remedy, Remedy::none);
     EXPECT_NE(of(all, "disk").found.find("GB free"), std::string::npos) << of(all, "disk").found;
 }
 
