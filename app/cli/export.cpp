@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "analysis/bids.h"
 #include "analysis/curves.h"
 #include "command.h"
+#include "output_file.h"
 #include "study_export.h"
 
 namespace dihaptic::cli {
@@ -61,12 +63,24 @@ std::vector<std::string> split(const std::string& names) {
     return out;
 }
 
+/// Throws Error for an existing file that is not a table of curves, which nobody wants replaced.
+void check_curves(const std::string& file) {
+    std::string begin(analysis::kBeginOfCurves.size(), '\0');
+    std::ifstream in(file, std::ios::binary);
+    if (!in.is_open()) return;
+    in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    if (in.gcount() == 0 || begin == analysis::kBeginOfCurves) return;
+    throw Error({file, 0}, "", "exists, and is not a table of curves", "Name another file.");
+}
+
 void to_csv(const recording::SessionFolder& session, const Options& options) {
     std::string file = options.out;
     if (file.empty()) {
         const auto folder = std::filesystem::canonical(session.path());
         file = folder.filename().string() + "_curves.csv";
     }
+    check_output_file(file, session.path(), "the session's folder", ".csv");
+    check_curves(file);
     std::vector<std::string> wrong;
     {
         ProgressLine line("writing curves");

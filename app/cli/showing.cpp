@@ -115,17 +115,6 @@ Showing open_showing(const std::string& file) {
                : open_plan(file);
 }
 
-void check_no_input(const ViewOptions& options) {
-    check_output(options.out, options.file, "the file shown");
-    const fs::path out(options.out);
-    const std::string kind = out.extension().string();
-    std::error_code none;
-    if (kind == ".png" || kind == ".mp4" || !fs::exists(out, none)) return;
-    const fs::path folder = out.parent_path().empty() ? "." : out.parent_path();
-    if (!fs::equivalent(folder, options.file, none)) return;
-    throw Error({options.out, 0}, "", "is a file of the session", "Name another file.");
-}
-
 void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& options) {
     command.add_option("--camera", options->camera,
                        "camera: front, above, side, or one of the scene's own; default: the "

@@ -40,9 +40,6 @@ struct ViewOptions {
     std::vector<std::string> show;
     std::string out;
 };
-/// Throws Error when the output file would overwrite the file shown or another file of the same
-/// session, or when it cannot be written.
-void check_no_input(const ViewOptions& options);
 void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& options);
 
 /// Draws frames as the options request.

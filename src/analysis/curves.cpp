@@ -201,7 +201,7 @@ void add_cell(std::string& line, double value) {
 
 void write(std::ofstream& out, recording::RawLogReader& log, const std::vector<Column>& columns,
            const std::function<void(double)>& progress) {
-    std::string line = std::string("t_s,") + kTrial;
+    std::string line(kBeginOfCurves);
     for (const Column& column : columns) line += "," + to_csv(Table::Cell(column.name));
     out << line << '\n';
     TickRow row;

@@ -13,11 +13,15 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "recording/session.h"
 
 namespace dihaptic::analysis {
+
+/// The first two columns of every table of curves.
+inline constexpr std::string_view kBeginOfCurves = "t_s,trial";
 
 /// Returns the name of a quantity's column, i.e. the quantity followed by its unit as usually
 /// written, e.g. damping_Ns_m.
