@@ -1,10 +1,12 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <compare>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "base/plural.h"
 #include "base/regular_file.h"
@@ -317,8 +319,40 @@ class Collection {
     }
     size_t rows(const std::string& name) const { return tables_.at(name).rows.size(); }
     const Contacts& contacts() const { return contacts_; }
+    /// Says that no attempt at a trial was made, or that all were to be repeated; "" otherwise.
+    /// `task`: task.yaml of a session.
+    std::string without_trials(const Node& task) const {
+        const TextTable& trials = tables_.at("trials.csv");
+        if (trials.rows.empty())
+            return "no trial was done: see whether the task's criteria (until, needs) hold from "
+                   "the start";
+        const auto column = std::ranges::find(trials.columns, "outcome", &Table::Column::name) -
+                            trials.columns.begin();
+        const std::set<std::string> repeated = repeated_outcomes(task);
+        std::set<std::string> ended;
+        for (const auto& row : trials.rows) ended.insert(row[static_cast<size_t>(column)]);
+        if (!std::ranges::includes(repeated, ended)) return "";
+        return fmt::format(
+            "no attempt ended as a trial should: after {} the trial is repeated "
+            "(redo)",
+            fmt::join(ended, " and "));
+    }
 
   private:
+    static std::set<std::string> repeated_outcomes(const Node& task) {
+        std::set<std::string> out;
+        const Node none;
+        const auto part = [&](const Node& of, const char* key) -> const Node& {
+            const Node* found = of.find(key);
+            return found == nullptr ? none : *found;
+        };
+        for (const Node& state : part(task, "states").items) {
+            for (const Node& exit : part(state, "exits").items) {
+                if (part(exit, "redo").scalar == "yes") out.insert(part(exit, "outcome").scalar);
+            }
+        }
+        return out;
+    }
     /// Adds a column for each of the person's traits, even if other people lack it: people defined
     /// in Python may belong to different classes.
     void note_traits(const Node& person) {
@@ -394,6 +428,10 @@ void collect(const CollectOptions& options) {
     fmt::print("{}, {}: in {}: {}\n", counted(static_cast<int64_t>(people.size()), "session"),
                counted(static_cast<int64_t>(collection.rows("trials.csv")), "attempt"), out, names);
     fmt::print("{}\n", collection.contacts().describe());
+    const std::string task = people.begin()->second + "/task.yaml";
+    const std::string nothing =
+        collection.without_trials(is_there(task) ? read_yaml(task) : Node{});
+    if (!nothing.empty()) fmt::print(stderr, "warning: {}\n", nothing);
 }
 
 }  // namespace

@@ -8,12 +8,14 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 
 #include "base/choices.h"
 #include "base/installed.h"
 #include "base/text.h"
+#include "base/unit.h"
 #include "scene/closed.h"
 #include "scene/colour.h"
 #include "scene/finger_set.h"
@@ -26,8 +28,11 @@ namespace {
 
 /// Limits of plausible values: anything on a tabletop is smaller and lighter, so beyond these
 /// limits a unit is probably wrong.
-constexpr double kImplausibleSize = 3.0;   // [m]
-constexpr double kImplausibleMass = 20.0;  // [kg]
+constexpr double kImplausibleSize = 3.0;      // [m]
+constexpr double kImplausibleMass = 20.0;     // [kg]
+constexpr double kImplausiblyLight = 1e-5;    // [kg]
+constexpr double kImplausibleDistance = 3.0;  // of a body that moves, from the origin [m]
+constexpr double kImplausibleTurn = 4 * std::numbers::pi;  // [rad]
 
 std::vector<Finger> default_fingers() {
     // the default fingers are pads of 20 x 20 x 5 mm whose faces point along x
@@ -177,7 +182,8 @@ bool check_weight(const Body& body, Diagnostics& diagnostics) {
                           "Check the units of its size and its density.");
         return false;
     }
-    if (mass(body) > kImplausibleMass) {
+    if (mass(body) > kImplausibleMass ||
+        (has_volume(body.shape) && mass(body) < kImplausiblyLight)) {
         diagnostics.warning(body.place, body.name, fmt::format("weighs {:g} kg", mass(body)),
                             "Check the unit of its mass or density.");
     }
@@ -190,7 +196,22 @@ void check_driven(const Body& body, Diagnostics& diagnostics) {
                       "Leave it out.");
 }
 
+void check_plausible_pose(const Body& body, Diagnostics& diagnostics) {
+    if (body.moves_at_all() && body.position.norm() > kImplausibleDistance) {
+        diagnostics.warning(body.place, body.name,
+                            fmt::format("begins {:g} m from the origin", body.position.norm()),
+                            "Check the unit of its position.");
+    }
+    if (body.rotation.cwiseAbs().maxCoeff() > kImplausibleTurn) {
+        diagnostics.warning(body.place, body.name,
+                            fmt::format("is turned by {:.0f} degrees",
+                                        body.rotation.cwiseAbs().maxCoeff() / kDegree),
+                            "Check the unit of its rotation.");
+    }
+}
+
 void check_body(const Body& body, Diagnostics& diagnostics) {
+    check_plausible_pose(body, diagnostics);
     check_plausible(body.shape, body.place, diagnostics);
     read_colour(body.colour, body.place, diagnostics);
     if (body.driven) check_driven(body, diagnostics);

@@ -21,6 +21,7 @@
 #include "session/mass_checks.h"
 #include "session/proxies.h"
 #include "session/rehearsal.h"
+#include "session/task_checks.h"
 #include "session/texture_checks.h"
 #include "task/plan/levels.h"
 #include "task/run/trial_numbers.h"
@@ -521,6 +522,7 @@ void check_plan(Plan& plan, Diagnostics& diagnostics) {
     check_wall(plan, diagnostics);
     check_triggers(plan, diagnostics);
     if (plan.task) check_measures(*plan.task, diagnostics);
+    check_task(plan, diagnostics);
 }
 
 }  // namespace dihaptic::session

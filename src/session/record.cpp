@@ -1,11 +1,39 @@
 #include "session/record.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
 
 #include "base/plural.h"
 
 namespace dihaptic::session {
 namespace {
+
+/// Says that no trial was done, or that all were to be repeated; "" otherwise.
+std::string without_trials(const Recorded& session, const Plan& plan) {
+    const std::optional<Table>& trials = session.figures.trials;
+    if (!plan.task || !trials || session.interrupted || !session.fault.empty()) return "";
+    const auto column =
+        static_cast<size_t>(std::ranges::find(trials->columns, "outcome", &Table::Column::name) -
+                            trials->columns.begin());
+    std::set<std::string> ended;
+    for (const auto& row : trials->rows) ended.insert(std::get<std::string>(row[column]));
+    if (ended.empty())
+        return "no trial was done: see whether the task's criteria (until, needs) hold from the "
+               "start";
+    const auto is_repeated = [&](const std::string& name) {
+        const auto& known = plan.task->outcomes;
+        const auto found = std::ranges::find(known, name, &task::TaskPlan::Outcome::name);
+        return found != known.end() && found->redo;
+    };
+    if (!std::ranges::all_of(ended, is_repeated)) return "";
+    return fmt::format("none of {} ended as a trial should: after {} the trial is repeated (redo)",
+                       counted(static_cast<int64_t>(trials->rows.size()), "attempt"),
+                       fmt::join(ended, " and "));
+}
 
 std::vector<std::string> closing_notes(const Recorded& session, const Plan& plan) {
     std::vector<std::string> out;
@@ -13,6 +41,8 @@ std::vector<std::string> closing_notes(const Recorded& session, const Plan& plan
         if (!what.empty()) out.push_back("WARNING: " + what);
     }
     for (const std::string& what : session.undecided) out.push_back("WARNING: " + what);
+    if (const std::string what = without_trials(session, plan); !what.empty())
+        out.push_back("WARNING: " + what);
     const analysis::SessionFigures& figures = session.figures;
     uint32_t told = figures.status & ~(kPaused | kResumed | kSoftStarted);
     // the fault already reports that the operator stopped the session

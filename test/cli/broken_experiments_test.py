@@ -301,7 +301,7 @@ MISTAKES = [
     ("count: 2, gap", "gap", "count", "Add count"),
     ("until: score >= 100", "until: scor >= 100", "until", "Did you mean score?"),
     ("until: score >= 100", "until: score", "until", "Write a comparison"),
-    ("until: score >= 100", "until: block.z > 1", "until", "docs/quantities.md lists the quantities"),
+    ("until: score >= 100", "until: block.z > 1", "until", "docs/files/expressions.md says which names there are"),
     ("kind: force_channel, perturb: channel", "kind: force_channel, perturb: late",
      "kind", "Name a perturbation whose field is a channel"),
     ("kind: force_channel, perturb: channel", "kind: error_clamp, perturb: channel", "kind", "Write visual_clamp"),

@@ -217,6 +217,9 @@ class Compiler : Parts {
     Value divided(const Value& a, const Value& b) {
         demand(b, Type::number);
         if (a.type != Type::vector) demand(a, Type::number);
+        if (is_constant(b.node[0]) && constant_of(b.node[0]) == 0)
+            throw Fault{b.column, "is zero, by which nothing can be divided",
+                        "Divide by another number."};
         return scaled(kDivide, a, b, a.dimension / b.dimension);
     }
     Value signed_value() {
@@ -356,7 +359,7 @@ class Compiler : Parts {
         const std::vector<std::string> names = quantities_.names();
         const std::string guess = nearest(name.text, names);
         return {name.column, fmt::format("'{}' is not a quantity", name.text),
-                guess.empty() ? "docs/quantities.md lists the quantities."
+                guess.empty() ? "docs/files/expressions.md says which names there are."
                               : fmt::format("Did you mean {}?", guess),
                 names};
     }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,7 +64,13 @@ class Parts {
             known = known && is_constant(arguments[i]);
             if (known) values[i] = constant_of(arguments[i]);
         }
-        if (known) return constant(operation.function(values.data()));
+        if (known) {
+            const double value = operation.function(values.data());
+            if (std::isnan(value))  // an infinite bound may be meant
+                throw Fault{1, "has a part, made of numbers alone, that is not a number",
+                            "Correct these numbers."};
+            return constant(value);
+        }
         nodes_.push_back({operation, arguments});
         return static_cast<int>(nodes_.size()) - 1;
     }

@@ -374,7 +374,7 @@ bool agree(double a, double b) {
 }
 
 TEST(Expression, TenThousandAgreeWithPython) {
-    constexpr int kExpressions = 10000;
+    constexpr size_t kExpressions = 10000;
     Quantities quantities;
     const std::array names{"x", "y", "z"};
     for (const char* name : names) quantities.define(name, {}, Kind::draw);
@@ -384,22 +384,32 @@ TEST(Expression, TenThousandAgreeWithPython) {
     std::vector<std::string> texts;
     std::vector<double> ours;
     size_t allocations = 0;
+    size_t refused = 0;
     {
         std::ofstream file(folder.file("expressions.txt"));
         file << "x y z\n";
-        for (int i = 0; i < kExpressions; ++i) {
-            texts.push_back(below(random, 3) == 0 ? writer.truth(3) : writer.number(4));
+        while (texts.size() < kExpressions) {
+            const std::string text = below(random, 3) == 0 ? writer.truth(3) : writer.number(4);
+            Diagnostics diagnostics;
+            const Expression expression =
+                Expression::compile(text, quantities, {}, "", diagnostics);
+            if (diagnostics.has_errors()) {  // Python computes these, but nobody means them
+                const std::string told = diagnostics.problems().front().text();
+                ASSERT_TRUE(told.find("that is not a number") != std::string::npos ||
+                            told.find("by which nothing can be divided") != std::string::npos)
+                    << text << "\n"
+                    << told;
+                ++refused;
+                continue;
+            }
+            ASSERT_TRUE(diagnostics.problems().empty()) << text;
+            texts.push_back(text);
             for (const char* name : names) {
                 const double value = below(random, 8) == 0 ? 0 : 3 * random.normal();
                 quantities.set(quantities.find(name)->slot, value);
                 file << number_text(value) + " ";
             }
             file << "\t" << texts.back() << "\n";
-            Diagnostics diagnostics;
-            const Expression expression =
-                Expression::compile(texts.back(), quantities, {}, "", diagnostics);
-            ASSERT_TRUE(diagnostics.problems().empty()) << texts.back() << "\n"
-                                                        << diagnostics.problems().front().text();
             ours.emplace_back();
             const testing::AllocationGuard guard;
             ours.back() = expression(quantities.values());
@@ -407,6 +417,7 @@ TEST(Expression, TenThousandAgreeWithPython) {
         }
     }
     EXPECT_EQ(allocations, 0u);
+    EXPECT_LT(refused, kExpressions / 5);
     const std::string command = "/usr/bin/python3 src/task/test/evaluate.py " +
                                 folder.file("expressions.txt") + " > " + folder.file("values.txt");
     ASSERT_EQ(std::system(command.c_str()), 0);
@@ -420,7 +431,7 @@ TEST(Expression, TenThousandAgreeWithPython) {
         EXPECT_TRUE(agree(ours[i], theirs)) << texts[i] << "\n" << ours[i] << " " << theirs;
         finite += std::isfinite(theirs) ? 1 : 0;
     }
-    EXPECT_GT(finite, kExpressions / 2);
+    EXPECT_GT(finite, static_cast<int>(kExpressions / 2));
 }
 
 /// The grip force increases by 7 N/s and, after a gap, by 3 N/s.
