@@ -15,15 +15,14 @@ namespace dihaptic::cli {
 namespace {
 
 std::string what_became(int status) {
-    if (WIFSIGNALED(status)) return fmt::format("killed by signal {}", WTERMSIG(status));
-    return stop_requested ? "interrupted" : "failed";
+    return WIFSIGNALED(status) ? fmt::format("killed by signal {}", WTERMSIG(status)) : "failed";
 }
 
 /// The error message of a person's process that failed. A process that fails because the disk is
 /// full leaves no message.
 std::string why_failed(const CrowdWork& work, const std::string& id) {
     const std::string messages = work.messages(id);
-    if (!messages.empty() || stop_requested) return messages;
+    if (!messages.empty()) return messages;
     return fmt::format("It left no message: check whether the disk is full (df -h {}).",
                        shell_file(work.out));
 }
@@ -45,6 +44,9 @@ class Crowd {
         }
         for (const std::string& id : busy_) look_again(id);
         if (done_ < people_.size()) exit_code = kFailed;
+        if (stop_requested)
+            failed_.push_back(
+                fmt::format("interrupted after {} of {} people", done_, people_.size()));
         return std::move(failed_);
     }
 
@@ -90,7 +92,7 @@ class Crowd {
         if (status == 0) {
             ++done_;
             show();
-        } else {
+        } else if (!stop_requested || WIFSIGNALED(status)) {
             fail(id, what_became(status), why_failed(work_, id));
         }
     }

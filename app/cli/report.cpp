@@ -43,7 +43,7 @@ void check_options(const ReportOptions& options) {
     }
     if (!options.out.empty() && options.tables)
         throw Error(
-            {"--out", 0}, "", "is for the page, but --tables draws none",
+            {"--out", 0}, "", "is the folder for the page, but with --tables no page is drawn",
             "Leave out one of the two: tables are written to the folders of their sessions.");
     if (!options.out.empty() && one)
         throw Error({"--out", 0}, "", "is valid only with several paths",

@@ -236,8 +236,9 @@ class Rehearsing {
         run.keep_log = keep_log;
         const session::Recorded session = session::record(plan, run, stop_requested);
         if (!session.good()) {
-            fmt::print("{}\n",
-                       session.fault.empty() ? "the session did not end well" : session.fault);
+            fmt::print("{}\n", session.fault.empty()
+                                   ? "the session ended before its trials were done"
+                                   : session.fault);
             return "";
         }
         if (person) learned.person = person->learned();
@@ -287,11 +288,12 @@ void rehearse_study(const StudyRehearsal& given) {
     for (const study::Member& member : roster.participants) {
         if (!rehearsing.is_done(member.id)) waiting.push_back(member.id);
     }
-    fmt::print(
-        "{}\n{} people in {}, {} to do\nnote: between sessions, simulated people "
-        "forget what they learned fast, and keep what they learned slowly\n",
-        study.title, roster.participants.size(),
-        counted(static_cast<int64_t>(study.groups.size()), "group"), waiting.size());
+    fmt::print("{}\n{} people in {}, {} to do\n{}", study.title, roster.participants.size(),
+               counted(static_cast<int64_t>(study.groups.size()), "group"), waiting.size(),
+               study.sessions.size() > 1
+                   ? "note: between sessions, simulated people forget what they "
+                     "learned fast, and keep what they learned slowly\n"
+                   : "");
     CrowdWork work;
     work.jobs = rehearsal.jobs;
     work.out = study.data;

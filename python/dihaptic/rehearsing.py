@@ -27,6 +27,8 @@ from .files import Input, on_disk
 from .person import Ended, Person
 from .program import call, ended_of
 from .rehearsal import Rehearsal
+from .study import is_study
+from .tables import command_of
 
 _PR_SET_PDEATHSIG = 1  # <sys/prctl.h>
 
@@ -70,6 +72,9 @@ def rehearse(
     [['sim-001', 'controls', 'Idle'], ['sim-002', 'patients', 'Idle']]
     """
     with on_disk(experiment) as file:
+        if is_study(Path(file)):
+            remedy = f"Type {command_of('rehearse', file)}, then open it by dh.Study({str(file)!r}, rehearsed=FOLDER)."
+            raise error("is a study", remedy, file=str(file))
         folder = Path(out or f"rehearsals/{Path(file).stem}_{seed}")
         if person is None and between is None:
             command = ["rehearse", file, "--people", str(people), "--jobs", str(jobs), "--seed", str(seed)]

@@ -9,6 +9,7 @@ import re
 import zlib
 from collections.abc import Iterator
 from datetime import datetime
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -293,6 +294,37 @@ def _items(
         if not re.fullmatch("[A-Za-z0-9_-]+", str(item.get(name, ""))):
             raise error(f"has an item whose {name} is {item.get(name, '')!r}", remedy, file=str(file), key=of + key)
     return items
+
+
+def is_study(file: Path) -> bool:
+    """Whether this is the file of a study, whose mistakes do not matter here."""
+    if not file.is_file() or why_unreadable(file, MOST_YAML):
+        return False
+    try:
+        return {"groups", "sessions"} <= set(read_info(file, ""))
+    except Error:
+        return False
+
+
+def groups_of_study(session: Path) -> list[str]:
+    """The names of a study's groups, in the order of its file, as the study's folder has kept it; [] where it has not.
+
+    `session` is the folder of one of its recordings, FOLDER/sessions/PERSON/SESSION/RECORDING.
+    """
+    above = session.resolve().parents
+    kept = (_groups_kept(folder / "versions.yaml") for folder in above[2:4])
+    return next((groups for groups in kept if groups), [])
+
+
+@lru_cache(maxsize=8)
+def _groups_kept(file: Path) -> list[str]:
+    if why_unreadable(file, MOST_YAML):
+        return []
+    try:
+        versions = read_info(file, "")["versions"]
+        return [str(group["name"]) for group in versions[-1]["study"]["groups"]]
+    except (Error, LookupError, TypeError):
+        return []
 
 
 def _names(study: dict[str, Any], key: str, file: Path) -> list[str]:

@@ -178,7 +178,7 @@ class Reports(unittest.TestCase):
         self.assertRegex(text, r"Movement time: .*; n = 2 people, 36 trials; averaged over width\.")
         points = pd.read_csv(next((self.here / "compared" / "figures").glob("measures-by-*.csv")))
         self.assertEqual(set(points["group"].dropna()), {"sim-001", "sim-002"})
-        self.assertRegex(text, r"Differences of means, sim-002 less sim-001 \(95 % interval\): movement time: .*no interval.*1 and 1")
+        self.assertRegex(text, r"Differences between means, sim-002 minus sim-001 \(95 % interval\): movement time: .*no interval.*1 and 1")
 
     def test_two_groups_have_their_differences(self):
         for name, people in (("first", ["sim-001", "sim-002"]), ("third", ["sim-003"])):
@@ -453,7 +453,7 @@ class Models(unittest.TestCase):
     def test_parameters_at_their_bounds_are_counted(self):
         self.assertIn("in 3 of 4 people fast learning lies at its bound 1", self.notes(B_fast=[1, 1, 0.5, 1]))
         self.assertIn("in 1 of 4 people slow retention lies at its bound 1", self.notes(A_slow=[0.99, 0.99, 1, 0.99]))
-        self.assertIn("in 4 of 4 people learning of the single rate lies at its bound 0", self.notes(B=0))
+        self.assertIn("in 4 of 4 people single-rate learning lies at its bound 0", self.notes(B=0))
 
     def test_two_processes_that_are_one_are_counted(self):
         self.assertIn("in 2 of 4 people slow and fast retention are equal", self.notes(A_fast=[0.99, 0.5, 0.999, 0.6]))

@@ -43,6 +43,50 @@ task:
 """
 
 
+class Groups(unittest.TestCase):
+    """Reports of studies whose groups have names, and files, of their own."""
+
+    def rehearse(self, titles, people="6"):
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        text = pathlib.Path("experiments/first-trials.yaml").read_text().replace("../", os.getcwd() + "/")
+        text = re.sub(r"repeats: \d+", "repeats: 1", text)
+        for group, title in titles.items():
+            (folder / f"{group}.yaml").write_text(re.sub("^title:.*$", f"title: {title}", text, count=1, flags=re.MULTILINE))
+        names = ", ".join(f"{{ name: {group}, people: 10 }}" for group in titles)
+        (folder / "study.yaml").write_text(
+            f'title: Groups\ngroups: [{names}]\nallocation: {{ method: in_turn, seed: 3 }}\n'
+            'sessions: [{ name: only, experiment: "{group}.yaml" }]\n'
+        )
+        said = dihaptic("rehearse", str(folder / "study.yaml"), "--people", people)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertNotIn("between sessions", said.stdout)
+        report = dihaptic("report", str(folder / "study.yaml"), "--rehearsed", str(folder / "rehearsal"))
+        self.assertEqual(report.returncode, 0, report.stderr)
+        return folder, report, (folder / "rehearsal/sessions/report.html").read_text()
+
+    def test_groups_are_in_the_order_of_the_file_everywhere(self):
+        _, report, page = self.rehearse({"west": "Lifts", "east": "Lifts"})
+        self.assertIn("in 2 groups (west, east)", page)
+        self.assertIn("east minus west", page)
+        self.assertNotIn("are not compared", page + report.stderr)
+
+    def test_groups_that_cannot_be_compared_are_told(self):
+        folder, report, page = self.rehearse({"west": "Lifts of the west", "east": "Lifts of the east"}, "2")
+        for text in (page, report.stderr):
+            self.assertIn("are not compared, because their experiments have different titles", text)
+        said = dihaptic("power", str(folder / "rehearsal"), "--effect", "mean(static_grip_N, group=west) - mean(static_grip_N, group=east)")
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("contains sessions of 2 experiments: Lifts of the east; Lifts of the west", said.stderr)
+        self.assertIn("give these files the same title", said.stderr)
+
+    def test_a_study_is_no_pool(self):
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        (folder / "study.yaml").write_text(STUDY)
+        said = dihaptic("power", str(folder / "study.yaml"), "--effect", "mean(static_grip_N)", "--out", str(folder / "power"))
+        self.assertEqual((said.returncode, sorted(os.listdir(folder))), (2, ["study.yaml"]))
+        self.assertIn("is a study, whose people are not rehearsed here. Rehearse it (dihaptic rehearse", said.stderr)
+
+
 class Studies(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

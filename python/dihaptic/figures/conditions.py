@@ -313,6 +313,13 @@ def _axes_of_names(trials: pd.DataFrame) -> dict[str, str]:
     return {}
 
 
+def _pooled(trials: pd.DataFrame, by: list[str]) -> str:
+    """A sentence for a caption if trials of several blocks are averaged."""
+    blocks = [str(block) for block in trials["block"].dropna().unique()] if "block" in trials and "block" not in by else []
+    names = ", ".join(blocks) if len(blocks) <= 6 else f"{len(blocks)}"
+    return f" All blocks are pooled ({names})." if len(blocks) > 1 else ""
+
+
 def _plans_of(data: Data, table: str, measures: list[str], name: str, design: dict[str, str]) -> Iterator[Plan]:
     trials = counting_trials(data, table)
     # a questionnaire, for example, may be asked in a single condition
@@ -348,6 +355,7 @@ def _plans_of(data: Data, table: str, measures: list[str], name: str, design: di
             caption=f"{dots}; marks are means over {over}{intervals(values)}. {counted(people, 'person', 'people')}, "
             f"{counted(len(trials), 'trial')}; practice, catch trials and repeated attempts are left out{channels}."
             + (f" Averaged over {' and '.join(rest)}." if rest else "")
+            + _pooled(trials, list(design.values()))
             + said_of_limits({name: words_of(name, units.get(name, "")) for name in some}),
             points=means_by_condition,
             points_options={"measures": some, **design, "table": table},

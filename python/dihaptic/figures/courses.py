@@ -360,7 +360,7 @@ def draw_courses(
     width_mm = WIDTHS[size] / columns - 17
     names_mm = [3.2 * _rows_of_names(_runs(own[own["of"] == "schedule"]), width_mm) for _, own, _ in panels]
     figure, all_axes = canvas(size, (height_mm + max(names_mm)) * rows + 5, rows, columns)
-    groups = {group: i for i, group in enumerate(sorted(points["group"].unique()))}
+    groups = {group: i for i, group in enumerate(dict.fromkeys(points["group"]))}
     several = bool((points["of"] == "mean").any())
     shaded: set[str] = set()
     perturbed = catch = False

@@ -15,6 +15,7 @@ from .._facts import facts
 from .._head import MOST_YAML, why_unreadable
 from ..errors import NotThere, error
 from ..session import Session
+from ..study import groups_of_study
 from .sessions import Paths, Sample, Sitting, Sittings, named_apart, renamed
 from .words import label, split
 
@@ -99,7 +100,7 @@ class Data:
             what = f"has sessions of {len(samples)} samples" if samples else "has no such sessions"
             choose = "Choose one by experiment= (its title), moved_by= (e.g. devices, or simulated_person), population="
             raise error(what, f"{choose}; there are: {there}.", file=str(self.paths[0]))
-        self.sittings = named_apart(chosen)
+        self.sittings = named_apart(_by_group(chosen))
         if people is not None:
             for name in people:
                 if name not in self.people:
@@ -151,6 +152,11 @@ class Data:
     def scene(self) -> dict[str, Any]:
         """The scene of the first session, frozen (scene.yaml); empty where there is none. Raises Error."""
         return _frozen(self.sessions[0].folder / "scene.yaml")
+
+    @property
+    def groups(self) -> list[str]:
+        """Names of the groups of people: those of a study in the order of its file, and those of paths in their order."""
+        return list(dict.fromkeys(sitting.group for sitting in self.sittings if sitting.group))
 
     # Tables
 
@@ -320,6 +326,19 @@ class Data:
     def mark(self) -> str:
         """The short mark in each figure's corner: "simulated" if no person took part."""
         return "simulated" if self.is_simulated else ""
+
+
+def _by_group(sittings: list[Sitting]) -> list[Sitting]:
+    """The sittings of a study, sorted by its groups in the order of its file, or else as they are."""
+    if not any(sitting.study_session and sitting.group for sitting in sittings):
+        return sittings
+    paths = list(dict.fromkeys(sitting.of for sitting in sittings))
+    groups: list[str] = []
+    for sitting in sittings:
+        if sitting.group not in groups:
+            groups += [name for name in groups_of_study(sitting.session.folder) if name not in groups]
+    known = {name: place for place, name in enumerate(groups)}
+    return sorted(sittings, key=lambda each: (paths.index(each.of), known.get(each.group.rpartition(", ")[2], len(known))))
 
 
 def is_of_index(fits: pd.DataFrame) -> bool:

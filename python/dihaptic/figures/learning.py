@@ -214,7 +214,7 @@ def draw_learning_windows(
     """
     points = with_texts(points)
     unit = str(points["unit"].iloc[0])
-    parts, groups = list(dict.fromkeys(points["part"])), sorted(points["group"].unique())
+    parts, groups = list(dict.fromkeys(points["part"])), list(dict.fromkeys(points["group"]))
     colour, levels = ("group", groups) if len(groups) > 1 else ("part", parts)
     split: list[Any] = parts if colour == "group" and len(parts) > 1 else [None]
     sides = [side for side in (False, True) if (points["is_difference"] == side).any()]
@@ -289,7 +289,8 @@ def generalisation_curve(data: Data) -> pd.DataFrame:
     table = table.assign(part=parts_of(table))
     table = table[table["compensation_deg"].notna() & table["angle_deg"].notna()]
     by = ["part", "group", "angle_deg"]
-    same = table.groupby([*by, "person"], sort=True)
+    table = data.in_order(table.sort_values("angle_deg", kind="stable"), ["group"]).sort_values("part", kind="stable")
+    same = table.groupby([*by, "person"], sort=False)
     each = same.agg(value=("compensation_deg", "mean"), share=("share", "mean"), n=("trials", "sum")).reset_index()
     each = each.assign(of="person")
     mean = means_with_intervals(each, by, sort=False)
@@ -462,16 +463,18 @@ def _plan_of_curve(data: Data, table: pd.DataFrame, options: dict[str, Any], uni
     parts = list(dict.fromkeys(table["part"]))
     people = table["person"].nunique()
     width = 1 if people == 1 else width_of_bins(table, _MOST_POINTS if len(parts) == 1 else _MOST_POINTS_OF_SEVERAL)
-    measured = table[table["value"].notna()]
+    measured = table[table["value"].notna() & ~scattered(table)]
     ylabel = _quantity(data, unit)
-    model = f"; the dashed line is the two-rate model{'' if people == 1 else ', fitted to each person, as the mean of people'}"
+    fitted = "two-rate model" if people == 1 else "mean over people of the two-rate models fitted to each person"
+    model = f"; the dashed line is the {fitted}"
     channels = " Values are those of trials in force channels." if set(measured["kind"]) == {"force_channel"} else ""
-    dotted = ", the dotted line is the perturbation" if (table["perturbation"].fillna(0) != 0).any() else ""
+    dotted = "; the dotted line is the perturbation" if (table["perturbation"].fillna(0) != 0).any() else ""
     short = table.groupby("part")["trial"].max().max() <= 60 and len(parts) == 1
+    part = "round" if data.rounds else "session"
     return Plan(
         name=name,
         title="Learning over trials",
-        caption=f"{ylabel.split(' [')[0].capitalize()} over the trials of {'a round' if len(parts) == 1 else 'each round'}. "
+        caption=f"{ylabel.split(' [')[0].capitalize()} over the trials of {'each ' if len(parts) > 1 else 'the ' if part == 'session' else 'a '}{part}. "
         f"{_lines_in_words(table, width)}{model if table['fit'].notna().any() else ''}{dotted}.{channels}"
         f"{_left_out(table, len(parts))}{_too_many(data)} {counted(people, 'person', 'people')}, "
         f"{counted(len(measured), 'measured trial')}; practice and all but the last attempt at a trial are left out.",
@@ -530,18 +533,21 @@ def _plan_of_windows(data: Data, own: pd.DataFrame, options: dict[str, Any], uni
     clamp, washout = any("clamp" in window for window in windows), "washout_first" in windows
     also = " and ".join(word for word, there in (("clamp", clamp), ("washout", washout)) if there)
     about = [
-        "Early and late: the first eight measured trials of the first perturbed block, and the last eight with that "
+        "Baseline: all measured trials before the first perturbed block" if "baseline" in windows else "",
+        "early and late: the first eight measured trials of the first perturbed block, and the last eight with that "
         "perturbation",
+        "catch trials: all of them" if "catch" in windows else "",
         f"{also}: the first{' or last' if clamp else ''} eight measured trials of the block" if also else "",
         "savings: the first eight measured trials of relearning less those of learning" if "savings" in windows else "",
         "rebound: the end of the clamp less what preceded it" if "rebound" in windows else "",
         "where there are fewer than eight, all of them are taken",
     ]
+    windows_in_words = "; ".join(part for part in about if part)
     wide = len(windows) > 4 or (groups > 1 and rounds > 1) or max(groups, rounds) > 2
     return Plan(
         name=name,
         title="Learning in windows of trials",
-        caption=f"{dots}{means}. {'; '.join(part for part in about if part)}.{_too_many(data)} "
+        caption=f"{dots}{means}. {windows_in_words[:1].upper()}{windows_in_words[1:]}.{_too_many(data)} "
         f"{counted(people, 'person', 'people')}{f', {rounds} rounds' if rounds > 1 else ''}, "
         f"{counted(int(own['measured'].sum()), 'measured trial')}.",
         points=learning_windows,

@@ -847,7 +847,7 @@ def _plan_of_paths(data: Data, sheet: _Sheet, reaches: list[_Reach]) -> Plan:
     by_target = len({reach.condition for reach in reaches}) > _MOST_COLOURS
     right, up = _plane(reaches)
     widest = 1000 * max(float(np.ptp(reach.path @ np.array([right, up]).T, axis=0).max()) for reach in reaches)
-    caption = "Paths of single reaches to scale, to the state that ends them; small marks are their ends, circles are start "
+    caption = "Paths of the hand in single reaches, to scale, until the state that ends them; small marks are their ends, circles are start "
     caption += "and target."
     if by_target and len(colours) > 1:
         caption += " Colours tell neighbouring targets apart."

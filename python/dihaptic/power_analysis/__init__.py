@@ -15,15 +15,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import error
 from ..program import call
 from ..rehearsing import rehearse
+from ..study import is_study
+from ..tables import command_of
 
 if TYPE_CHECKING:
+    from ..figures.data import Data
+    from .effect import Effect
     from .result import Power
 
 #: Largest number of people in a sample.
@@ -78,7 +82,6 @@ def power(
     # these need matplotlib and SciPy, and take long to import
     from .draws import test_named
     from .effect import Effect
-    from .pool import read_pool
     from .result import Power
 
     asked = Effect(effect)
@@ -95,21 +98,19 @@ def power(
         raise error("must be a number other than zero", remedy, key="smallest_effect")
     name, _ = test_named(test, asked.is_between)
     folder = Path(path)
+    if is_study(folder):
+        remedy = f"Rehearse it ({command_of('rehearse', folder)}), then name the folder of its rehearsal."
+        raise error("is a study, whose people are not rehearsed here", remedy, file=str(folder))
     if folder.is_dir() and laboratories:
         raise error("are those from which the people in the folder come", "Leave this out.", key="laboratories")
     if not folder.is_dir():
         into = Path(out or f"power/{folder.stem}_{seed}")
-        pool = rehearse(
-            path, people, jobs=jobs, population=population, laboratories=laboratories, seed=seed, out=into / "pool",
-            progress=progress,
-        )  # fmt: skip
-        folder = pool.folder
-    data = read_pool(folder)
-    own = {str(column) for table in data.tables if table not in _REPORTED for column in data.table(table)}
-    lacking = [each for each in data.sessions if not any((each.folder / f"{table}.csv").is_file() for table in _REPORTED)]
-    if lacking and set(asked.columns) - own:  # people have been added since the last report, or there was none
-        call(["report", str(folder), "--tables"], progress=progress)
-        data = read_pool(folder)
+        options: dict[str, Any] = {"jobs": jobs, "population": population, "laboratories": laboratories, "seed": seed}
+        first = max(1, 2 * laboratories)  # people after whom a misspelt column is told, and not after all
+        if not (into / "pool").exists() and people > first:
+            asked.check_names(_tables_for(asked, rehearse(path, first, out=into / "pool", progress=False, **options).folder, False))
+        folder = rehearse(path, people, out=into / "pool", progress=progress, **options).folder
+    data = _tables_for(asked, folder, progress)
     sides = asked.sides(data)
     for side, group in zip(sides, asked.groups or [""]):
         if len(side) < _LEAST:
@@ -133,6 +134,19 @@ def power(
     if sequential and any(later <= earlier for earlier, later in zip(analysed, analysed[1:])):
         raise error("has looks between which nobody is added to the analysis", "Leave more people between them.", key="n")
     return result
+
+
+def _tables_for(asked: Effect, folder: Path, progress: bool) -> Data:
+    """The tables of a pool, with those of a report if the effect needs them."""
+    from .pool import read_pool
+
+    data = read_pool(folder)
+    own = {str(column) for table in data.tables if table not in _REPORTED for column in data.table(table)}
+    lacking = [each for each in data.sessions if not any((each.folder / f"{table}.csv").is_file() for table in _REPORTED)]
+    if lacking and set(asked.columns) - own:  # people have been added since the last report, or there was none
+        call(["report", str(folder), "--tables"], progress=progress)
+        data = read_pool(folder)
+    return data
 
 
 def _check(n: Sequence[int], draws: int, alpha: float, ratio: float, attrition: float, seed: int) -> None:

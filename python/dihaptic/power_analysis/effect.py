@@ -50,8 +50,9 @@ class Effect:
         self.text = text
         try:
             self._tree = ast.parse(text.strip(), mode="eval").body
-        except (SyntaxError, ValueError, RecursionError):
-            raise error("is not an expression", f"{_EXAMPLE} Conditions are equalities.", key=text) from None
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            short = text if len(text) <= 60 else text[:60] + "..."
+            raise error("is not an expression", f"{_EXAMPLE} Conditions are equalities.", key=short) from None
         parts = sum(1 for _ in ast.walk(self._tree))
         if parts > _MOST_PARTS:
             raise error(f"is too long: it has {parts} parts, and may have {_MOST_PARTS}", "Shorten it.", key=text[:60] + "...")
@@ -92,6 +93,12 @@ class Effect:
             return [self._value(self._tree, data).dropna()]
         assert isinstance(self._tree, ast.BinOp)
         return [self._value(side, data).dropna() for side in (self._tree.left, self._tree.right)]
+
+    def check_names(self, data: Data) -> None:
+        """Checks that the columns of all terms, and those of their conditions, are in tables of these people. Raises Error."""
+        for node in ast.walk(self._tree):
+            if isinstance(node, ast.Call):
+                _named(node, data)
 
     def _check(self, node: ast.expr) -> None:
         if isinstance(node, ast.BinOp) and type(node.op) in _OPERATORS:
@@ -137,18 +144,23 @@ class Effect:
         return _term(node, data)
 
 
-def _term(node: ast.Call, data: Data) -> pd.Series:
-    """The value of one term for each person."""
-    assert isinstance(node.func, ast.Name)
+def _named(node: ast.Call, data: Data) -> tuple[str, pd.DataFrame, str, dict[str, Any]]:
+    """The table of a term, its rows and column, and the values that it asks for of other columns. Raises NotThere."""
     column = str(_word(node.args[0]))
     chosen = {str(word.arg): _word(word.value) for word in node.keywords}
     name = str(chosen.pop("table", "")) or _table_of(column, data)
     table = _rows(data, name, chosen)
-    if column not in table:
-        raise NotThere(column, f"is not a column of {name}", [str(each) for each in table], "")
-    for key, value in chosen.items():
+    for key in (column, *chosen):
         if key not in table:
             raise NotThere(key, f"is not a column of {name}", [str(each) for each in table], "")
+    return name, table, column, chosen
+
+
+def _term(node: ast.Call, data: Data) -> pd.Series:
+    """The value of one term for each person."""
+    assert isinstance(node.func, ast.Name)
+    name, table, column, chosen = _named(node, data)
+    for key, value in chosen.items():
         levels = table[key].dropna().unique()
         if key == "group" and not any(str(level) for level in levels):
             what = "has no groups"
@@ -168,6 +180,8 @@ def _term(node: ast.Call, data: Data) -> pd.Series:
     if not pd.api.types.is_numeric_dtype(table[column]):
         raise error("contains words, which have no statistic", "Name a column of numbers.", key=column)
     known = table[table[column].notna()]
+    if node.func.id == "sd" and known.groupby("person").size().max() < 2:
+        raise error("has one value of each person here, which has no SD", "Leave out a condition.", key=ast.unparse(node))
     values = known.groupby("person")[column].apply(_STATISTICS[node.func.id])
     return values.reindex(data.people).astype(float)
 

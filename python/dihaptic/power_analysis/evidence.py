@@ -39,7 +39,7 @@ def levels_of_looks(shares: Sequence[float], alpha: float) -> list[float]:
 
         def excess(z: float) -> float:
             outside = stats.norm.sf((z * math.sqrt(shares[k]) - grid) / step)  # the lower side is as likely
-            return float(2 * integrate.trapezoid(density * outside, grid)) - chance
+            return 2 * float(integrate.trapezoid(density * outside, grid)) - float(chance)
 
         ends.append(float(optimize.brentq(excess, 0, 40, xtol=1e-10)))
         after = np.linspace(-1, 1, _GRID) * ends[-1] * math.sqrt(shares[k])

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import os
 import re
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -58,6 +59,7 @@ def write_page(
         who = "Simulated. No person took part." if all(data.is_simulated for data in every) else ""
     page = Page(titles[0] if len(titles) == 1 else f"{len(titles)} experiments", who, _origin(every, told))
     sessions = sum(len(data.sessions) for data in every)
+    told_first = False
     for heading, texts in (
         (f"Changed since the session{'s' if sessions > 1 else ''} ended", told.get("changed")),
         ("Tables that could not be written", told.get("unwritten")),
@@ -66,9 +68,15 @@ def write_page(
         ("Not read", [text for text in every[0].left_out if "left_out" not in told or "it is a link" in text]),
     ):
         if texts:
+            told_first = True
             page.heading(heading)
             for text in texts:
                 page.text(str(text), "warning")
+    if told_first and len(every) == 1:
+        page.heading("Sessions" if sessions > 1 else "Session")
+    if text := _groups_apart(every):
+        page.text(text, "warning")
+        warnings.warn(text, stacklevel=2)
     for data in every:
         if len(every) > 1:
             page.heading(str(data.sample) if len(found) > len(titles) else data.title, "part")
@@ -81,6 +89,23 @@ def write_page(
             remedy = "If its tables are as the program wrote them, report this; or else restore them."
             raise error(what, remedy, file=str(data.folder)) from why
     return write(folder / NAME, page.html().encode(errors="replace"))
+
+
+def _groups_apart(every: list[figures.Data]) -> str:
+    """Says that groups of a study are not compared, because each has an experiment of its own; "" otherwise."""
+    groups: dict[str, set[str]] = {}
+    for data in every:
+        for sitting in data.sittings:
+            if sitting.study_session and sitting.group:
+                groups.setdefault(sitting.study_session, set()).add(f"{sitting.group}: {data.title}")
+    each = [sorted(group) for group in groups.values() if len(group) > 1]
+    apart = [one for one in each if len({text.partition(": ")[0] for text in one}) == len(one) == len({t.partition(": ")[2] for t in one})]
+    if not apart:
+        return ""
+    return (
+        f"The groups of this study are not compared, because their experiments have different titles ({'; '.join(apart[0])}). "
+        "If they are the same apart from what differs between the groups, give both files the same title before people take part."
+    )
 
 
 def _figures_of(folder: Path, data: figures.Data, every: list[figures.Data]) -> Path:

@@ -106,12 +106,12 @@ def add_differences(page: Page, data: Data) -> None:
     table = pd.DataFrame(rows)
     averaged = _averaged(data, side)
     page.heading("Differences between sessions" if side == "study_session" else "Differences between groups")
-    what = f"{sides[1]} less {sides[0]}" if len(sides) == 2 else f"each {words_of(side)} less {sides[0]}"
+    what = f"{sides[1]} minus {sides[0]}" if len(sides) == 2 else f"each {words_of(side)} minus {sides[0]}"
     caption = (
         f"Differences are those of means over people: {what}. Where n counts pairs, people are compared with themselves, and the "
-        "interval is Student's; elsewhere it is Welch's. The intervals are of one difference each: none allows for the others."
+        "interval is Student's; elsewhere it is Welch's. Each interval is for a single difference; none is corrected for multiple comparisons."
     )
-    caption += f" Averaged over {' and '.join(averaged)}." if averaged else ""
+    caption += f" Values are averaged over {' and '.join(averaged)}." if averaged else ""
     page.table(without_empty(table[:first]), caption)
     page.table(without_empty(table[first:]), folded="Differences of the other measures")
 
@@ -132,8 +132,8 @@ def differences_in_words(data: Data) -> str:
             counts[found.n] = None
     if not texts:
         return ""
-    whose = f"{level(sides[1])} less {level(sides[0])}" if len(sides) == 2 else f"less {level(sides[0])}"
-    return f"Differences of means, {whose} (95 % interval): {'; '.join(texts)}; n = {', '.join(counts)}."
+    whose = f"{level(sides[1])} minus {level(sides[0])}" if len(sides) == 2 else f"minus {level(sides[0])}"
+    return f"Differences between means, {whose} (95 % interval): {'; '.join(texts)}; n = {', '.join(counts)}."
 
 
 def _sides(data: Data) -> tuple[str, list[str]]:

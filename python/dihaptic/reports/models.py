@@ -14,7 +14,7 @@ from .page import in_short, with_interval, without_empty
 #: Parameters in fits.csv.
 _PARAMETERS = {
     "A_slow": "slow retention", "B_slow": "slow learning", "A_fast": "fast retention", "B_fast": "fast learning",
-    "A": "retention of the single rate", "B": "learning of the single rate",
+    "A": "single-rate retention", "B": "single-rate learning",
 }  # fmt: skip
 #: Columns of adaptation.csv with the models' curves, and what they are.
 _CURVES = {"two_rate": "two-rate model", "single_rate": "single-rate model"}

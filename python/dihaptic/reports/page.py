@@ -49,7 +49,8 @@ class Page:
 
     def text(self, text: str, kind: str = "") -> None:
         """A paragraph; `kind` is a class of the style sheet."""
-        self._body.append(f"<p{_class(kind)}>{escape(text)}</p>")
+        # a warning may contain a command, whose minus is a hyphen
+        self._body.append(f"<p{_class(kind)}>{escape(text if kind else with_minus_signs(text))}</p>")
 
     def table(self, table: pd.DataFrame, caption: str = "", *, folded: str = "", keys: int = 0) -> None:
         """A table with its header; numbers have three digits. With `folded`, only this title is visible at first. With
@@ -130,6 +131,15 @@ _BESIDE = [("pdf", "PDF"), ("png", "PNG"), ("csv", "numbers"), ("py", "script")]
 _BUTTONS = [("copy", "Copy"), ("svg", "Save SVG"), ("png", "Save PNG")]
 
 
+def with_minus_signs(text: str) -> str:
+    """A text whose negative numbers have a minus sign instead of a hyphen.
+
+    >>> with_minus_signs("0.29 s (-135°), day-1, 3-4")
+    '0.29 s (−135°), day-1, 3-4'
+    """
+    return re.sub(r"(?<![\w.)-])-(?=\d)", "\N{MINUS SIGN}", text)
+
+
 def in_short(value: Any) -> str:
     """A cell in words: numbers with three digits and a minus sign, "-" for what is missing. A number as small as a rounding
     error becomes 0."""
@@ -173,7 +183,7 @@ def _class(kind: str) -> str:
 def _header(table: pd.DataFrame) -> str:
     meanings = table.attrs.get("meanings", {})
     cells = "".join(
-        f'<th{_class("" if table[name].dtype == object else "number")}{_title(meanings.get(name, ""))}>{escape(str(name))}</th>'
+        f'<th{_class("" if table[name].dtype == object else "number")}{_title(meanings.get(name, ""))}>{escape(with_minus_signs(str(name)))}</th>'
         for name in table
     )
     return f"<thead><tr>{cells}</tr></thead>\n"

@@ -22,6 +22,8 @@ _MOST_MEASURES = 3
 _OF_LIFTS = ["peak_grip_N", "static_grip_N", "safety_margin"]
 #: Maximum number of levels that are listed by name.
 MOST_LISTED = 12
+#: Maximum number of conditions whose means are all in a sentence; of more, it has the smallest and the largest one.
+_MOST_MEANS = 6
 #: Columns over which no sentence takes a mean.
 _APART = ("group", "round", "study_session", "perturbation")
 #: A reader is warned if more than this share of the trials was repeated.
@@ -202,20 +204,20 @@ def _sentence(data: Data, measure: str, by: list[str], table: str) -> str:
     means = means_of(data, measure, by, table)
     means = means[means["mean"].notna()]
     texts = []
-    shown = means.head(MOST_LISTED)
+    shown = means if len(means) <= _MOST_MEANS else means.loc[[means["mean"].idxmin(), means["mean"].idxmax()]]
     for row, words in zip(shown.to_dict("records"), with_spreads(shown["mean"], shown["sd"])):
         named = [name for name in by if pd.notna(row[name])]
         of = ", ".join(level(row[name], units.get(name, "")) for name in named)
         value = with_unit(words, unit)
         texts.append(f"{value} ({of})" if of else value)
-    more = f", and {len(means) - MOST_LISTED} further conditions" if len(means) > MOST_LISTED else ""
+    said = listed(texts) if len(means) <= _MOST_MEANS else f"from {texts[0]} to {texts[1]}, in {len(means)} conditions"
     trials = counted(int(means["trials"].sum()), "trial")
     people = counting_trials(data, table).dropna(subset=[measure])["person"].nunique()
     n = trials if len(data.people) == 1 else f"{counted(people, 'person', 'people')}, {trials}"
     over = [words_of(name, units.get(name, "")) for name in averaged_over(data, counting_trials(data, table), by)]
     averaged = f"; averaged over {listed(over)}" if over else ""
     spread = "" if (means["n"] < 2).all() else f" (mean ± SD over {'trials' if len(data.people) == 1 else 'people'})"
-    return f"{capital(name)}{spread}: {listed(texts)}{more}; n = {n}{averaged}."
+    return f"{capital(name)}{spread}: {said}; n = {n}{averaged}."
 
 
 def _learned(data: Data) -> str:

@@ -128,7 +128,7 @@ def _facts(page: Page, data: Data, told: dict[str, Any]) -> None:
         _facts_of_session(page, data, told)
     else:
         people = data.people
-        groups = sorted({sitting.group for sitting in data.sittings} - {""})
+        groups = data.groups
         said = f"{counted(len(data.sessions), 'session')} of {counted(len(people), 'participant')}"
         if groups:
             said += f" in {counted(len(groups), 'group')} ({', '.join(groups)})"
@@ -141,8 +141,8 @@ def _facts(page: Page, data: Data, told: dict[str, Any]) -> None:
             page.text("Participants with several sessions count once in means over people, with the mean of these sessions.")
         if len(data.tasks) > 1:
             page.text(
-                f"These sessions have {len(data.tasks)} different tasks of one title. The description of the design below is "
-                "that of the first one; conditions of the same name are taken to be the same.",
+                f"These sessions come from {len(data.tasks)} different tasks with the same title. The design described below is "
+                "that of the first; conditions with the same name are treated as the same condition.",
                 "warning",
             )
 
@@ -312,10 +312,11 @@ def _learning(page: Page, data: Data) -> None:
         points = pd.DataFrame(columns=["of"])
     means = points[points["of"] == "mean"] if (points["of"] == "mean").any() else points
     rows: dict[tuple[str, str], dict[str, Any]] = {}
+    part = "round" if data.rounds else "session"
     for row in means.to_dict("records"):
         group = str(row["group"]) if isinstance(row.get("group"), str) else ""
         unit = in_print(str(row["unit"]))
-        own = rows.setdefault((str(row["part"]), group), {"round": row["part"], "group": group, "unit": unit})
+        own = rows.setdefault((str(row["part"]), group), {part: row["part"], "group": group, "unit": unit})
         own[str(row["window"]).replace("_", ", ")] = with_interval(row["value"], row["low"], row["high"])
     over = "people" if len(data.people) > 1 else "trials"
     caption = f"Compensation in windows of one block each: mean over {over}, with its 95 % interval."

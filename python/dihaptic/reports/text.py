@@ -49,15 +49,15 @@ def _apparatus(data: Data) -> str:
         table = data.table("settings").drop_duplicates("setting")
         settings = dict(zip(table["setting"].astype(str), table["value"].fillna("").astype(str)))
     info = data.sessions[0].info
-    devices = [f"{device['finger']} ({device['model']})" for device in info.get("devices") or []]
+    devices = [f"the {device['finger']} ({device['model']})" for device in info.get("devices") or []]
     rate = settings.get("rate_Hz", "")
     text = f"Forces were computed and recorded {f'{rate} times a second ' if rate else ''}by {info.get('program', 'Dihaptic')}"
     if devices:
-        text += f", and rendered to {listed(devices)} through {'its device' if len(devices) == 1 else 'a device each'}"
+        text += f", and rendered to {listed(devices)}"
     text += "."
     stiffness = settings.get("coupling.stiffness_N_m", "")
     if stiffness:
-        text += f" Each device was connected to its virtual finger by a virtual coupling of {stiffness} N/m."
+        text += f" {'The' if len(devices) == 1 else 'Each'} device was connected to its virtual finger by a virtual coupling of {stiffness} N/m."
     solver = settings.get("dynamics.solver", "").replace("_", " ")
     return text + (f" Contact and friction were solved by the method {solver}." if solver else "")
 
@@ -84,8 +84,9 @@ def _design(data: Data) -> str:
     of = first[first["round"].fillna("").astype(str) == rounds[0]] if len(rounds) > 1 else first
     blocks = []
     for block, own in of.groupby(of["block"].fillna("").astype(str), sort=False):
-        kinds = [kind.replace("_", " ") for kind in _levels(own, "kind") if kind != block]
-        blocks.append(f"{block or 'one block'} ({', '.join([counted(len(own), 'trial'), *kinds])})")
+        counts = own["kind"].astype(str).value_counts(sort=False)
+        kinds = [f"{n} {kind.replace('_', ' ')}" if kind != block else str(n) for kind, n in counts.items()]
+        blocks.append(f"{block or 'one block'} ({listed(kinds)} {'trial' if len(own) == 1 else 'trials'})")
     text = f"The experiment ({data.title}) had "
     if len(rounds) > 1:
         text += f"{len(rounds)} rounds ({listed(rounds)}), each with "
@@ -137,6 +138,12 @@ def _masses(data: Data) -> dict[tuple[str, str], list[str]]:
     return out
 
 
+def _ramp_of(data: Data, block: str) -> int:
+    """The number of trials over which the perturbations of a block rise to their size; 0 where they have it at once."""
+    found = [each.get("ramp") for each in data.task.get("blocks") or [] if str(each.get("name")) == block]
+    return int(found[0]) if found and isinstance(found[0], int) else 0
+
+
 def _perturbations(data: Data, told: dict[str, Any]) -> str:
     """A sentence for each perturbation: its blocks, kind and size. Values that rounds or conditions replace are left out."""
     rows = perturbations_table(data, told).to_numpy().tolist()
@@ -150,7 +157,9 @@ def _perturbations(data: Data, told: dict[str, Any]) -> str:
         blocks = _levels(trials[acts], "block") if any(acts) else []
         where = f"{'block' if len(blocks) == 1 else 'blocks'} {listed(blocks)}" if len(blocks) <= 3 and blocks else ""
         where = f" ({', '.join(filter(None, [part, where]))})" if part or where else ""
-        each.append(f"Perturbation {name}{where}: {what}.")
+        ramps = [ramp for block in dict.fromkeys(blocks) if (ramp := _ramp_of(data, block)) > 1]
+        grows = f", growing over the first {listed([str(ramp) for ramp in dict.fromkeys(ramps)])} trials of the block" if ramps else ""
+        each.append(f"Perturbation {name}{where}: {what}{grows}.")
     if len(rows) > _MOST_PERTURBATIONS:
         each.append(f"The table has {len(rows) - _MOST_PERTURBATIONS} further ones.")
     return " ".join(each)

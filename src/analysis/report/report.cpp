@@ -172,9 +172,15 @@ void leave_out(ReportResult& result, std::vector<SessionData>& sessions,
         } else if (session.is_cut_short() &&
                    !(counts && session.info.in_study &&
                      counts(session.folder.path(), *session.info.in_study))) {
-            result.left_out.push_back(
-                session.folder.path() +
-                ": it ended before its trials were done; dihaptic resume continues it");
+            const bool rehearsed = fs::path(session.folder.path())
+                                       .parent_path()
+                                       .filename()
+                                       .string()
+                                       .starts_with("unfinished-");  // as src/session names it
+            result.left_out.push_back(session.folder.path() +
+                                      ": it ended before its trials were done; " +
+                                      (rehearsed ? "the same dihaptic rehearse command repeats it"
+                                                 : "dihaptic resume continues it"));
         } else {
             return false;
         }
