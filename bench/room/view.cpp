@@ -51,7 +51,10 @@ ViewFigures bench_view(int frames, const measure::Progress& progress) {
     const scene::Scene scene = block_on_table();
     const view::Camera camera = view::cameras(scene).front();
     ViewFigures out;
-    for (const auto& [width, height] : {std::pair{640, 360}, {1280, 720}}) {
+    for (const auto& size : {std::pair{640, 360}, {1280, 720}}) {
+        // no structured binding: Clang 14 lets no lambda capture one
+        const int width = size.first;
+        const int height = size.second;
         const view::Offscreen offscreen(width, height);
         view::SceneView variance(scene, view::Shadows::variance);
         view::SceneView plain(scene, view::Shadows::plain);

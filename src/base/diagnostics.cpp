@@ -124,7 +124,10 @@ void Diagnostics::warning(const Place& place, std::string key, std::string what,
 
 void Diagnostics::unknown_key(const Place& place, std::string key, std::string remedy,
                               std::vector<Choice> choices) {
-    if (unknown_ == UnknownKeys::are_errors) {
+    if (unknown_ == UnknownKeys::are_errors && key == "<<") {
+        error(place, std::move(key), "is a merge, which is not supported",
+              "Write the keys of the other mapping here.");
+    } else if (unknown_ == UnknownKeys::are_errors) {
         error(place, std::move(key), "is not known here", std::move(remedy), std::move(choices));
     } else {
         warning(place, std::move(key), "is not known to this version of Dihaptic, and is left out",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import os
 import re
@@ -202,5 +203,7 @@ def write(file: Path, content: bytes) -> Path:
             raise
     except OSError as why:
         remedy = "Correct its permissions, remove whatever has its name, or name another folder."
+        if why.errno == errno.ENOSPC:
+            remedy = "Free some space, or name another folder."
         raise error(f"cannot be written: {why.strerror}", remedy, file=str(file)) from None
     return file

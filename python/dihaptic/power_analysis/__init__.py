@@ -111,6 +111,9 @@ def power(
             asked.check_names(_tables_for(asked, rehearse(path, first, out=into / "pool", progress=False, **options).folder, False))
         folder = rehearse(path, people, out=into / "pool", progress=progress, **options).folder
     data = _tables_for(asked, folder, progress)
+    if not Path(path).is_dir() and len(data.people) < people:
+        what = f"has {len(data.people)} of {people} people: another program is still writing there, or removes them"
+        raise error(what, "Type the same command again when it has ended.", file=str(folder))
     sides = asked.sides(data)
     for side, group in zip(sides, asked.groups or [""]):
         if len(side) < _LEAST:
