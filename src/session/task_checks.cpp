@@ -117,13 +117,27 @@ void check_delays(const task::Task& task, Diagnostics& diagnostics) {
     }
 }
 
+/// Names of the regions to which a hand has to come; others may only give a direction.
+std::set<std::string> reached(const task::Task& task) {
+    std::set<std::string> out;
+    for (const State& state : task.states) {
+        for (const Exit& exit : state.exits) {
+            if (exit.when == task::When::inside) out.insert(exit.region);
+        }
+        for (const task::HandStep& step : state.hand) out.insert(step.reach);
+    }
+    return out;
+}
+
 void check_places(const task::TaskPlan& plan, Diagnostics& diagnostics) {
+    const std::set<std::string> to_reach = reached(plan.task);
     std::set<std::string> told;
     for (const task::TaskPlan::Cell& cell : plan.cells) {
         for (size_t i = 0; i < cell.regions.size(); ++i) {
             const task::Region& region = cell.regions[i];
             const double away = cell.p_W[i].norm();
-            if (!(away > kOutOfReach) || !told.insert(region.name).second) continue;
+            if (!(away > kOutOfReach) || !to_reach.contains(region.name)) continue;
+            if (!told.insert(region.name).second) continue;
             diagnostics.warning(
                 region.place, region.name,
                 fmt::format("lies {:.3g} m from the origin, where no device reaches", away),
