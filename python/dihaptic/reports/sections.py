@@ -215,9 +215,12 @@ def _means(page: Page, data: Data, measures: list[str], table: str) -> None:
     means, counts = _by_condition(data, measures, table)
     if means.empty:
         return
+    trials = data.table("trials")
+    has_channels = "kind" in trials and (trials["kind"] == "force_channel").any()
+    channels = "; so are force channels, for measures that other trials have" if has_channels else ""
     caption = (
         f"Means over {'trials' if len(data.people) == 1 else 'people'}{intervals(counts)}. Practice, catch trials and "
-        "repeated attempts are left out; so are force channels, for measures that other trials have."
+        f"repeated attempts are left out{channels}."
         + said_of_limits({name: words_of(name, data.measure(name, table).unit) for name in measures})
     )
     page.table(means, caption, keys=keys)
