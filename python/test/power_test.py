@@ -144,10 +144,10 @@ class Evidence(unittest.TestCase):
 
     def test_looks_at_any_times_keep_the_level(self):
         for shares, alpha in (([0.3, 0.35, 0.9, 1], 0.05), ([0.98, 1], 0.05), ([0.1, 0.2, 1], 0.01), (np.arange(20, 41) / 40, 0.05)):
-            z = np.cumsum(np.random.default_rng(7).normal(0, np.sqrt(np.diff(shares, prepend=0)), (400000, len(shares))), axis=1)
+            z = np.cumsum(np.random.default_rng(7).normal(0, np.sqrt(np.diff(shares, prepend=0)), (200000, len(shares))), axis=1)
             ends = stats.norm.isf(np.array(levels_of_looks(shares, alpha)) / 2)
             crossed = (np.abs(z / np.sqrt(shares)) > ends).any(axis=1).mean()
-            self.assertAlmostEqual(crossed, alpha, delta=4 * np.sqrt(alpha / 400000))
+            self.assertAlmostEqual(crossed, alpha, delta=4 * np.sqrt(alpha / 200000))
 
     def test_bayes_factors_are_those_that_others_publish(self):
         # of the sleep data by R's package BayesFactor, and of the examples of Python's pingouin
