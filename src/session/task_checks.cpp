@@ -174,7 +174,8 @@ bool is_used(std::string_view text, const std::string& factor) {
     return false;
 }
 
-/// Warns of factors and perturbations whose only mention in the file is their own.
+/// Warns of factors whose only mention in the file is their own. Perturbations that no block names
+/// are often kept for later.
 void check_uses(const task::Task& task, Diagnostics& diagnostics) {
     if (task.place.file.empty()) return;
     std::string text;
@@ -194,11 +195,6 @@ void check_uses(const task::Task& task, Diagnostics& diagnostics) {
                             "is a factor that nothing in this file uses: trials of its levels are "
                             "all the same",
                             "Name it in a formula, a text or a condition.");
-    }
-    for (const task::PerturbationSpec& spec : task.perturbations) {
-        if (count_of(text, spec.name) > 1) continue;
-        diagnostics.warning(spec.place, spec.name, "is a perturbation that no trial has",
-                            fmt::format("Name it in a block: perturb: {}.", spec.name));
     }
 }
 

@@ -71,7 +71,6 @@ class DoubtfulTasks(unittest.TestCase):
             (TASK.replace("[60, 0, 120]", "[60000, 0, 120]"), "target: lies 60 m from the origin, where no device reaches"),
             (TASK.replace("  feedback_s: 0", factor), "load_g: is a factor that nothing in this file uses"),
             (TASK.replace("  feedback_s: 0", factor.replace(", 200", "")), "load_g: is a factor with a single level"),
-            (perturbed("{ rise_s: 0.1 }").replace("perturbed, perturb: p", "baseline"), "p: is a perturbation that no trial has"),
         ]
         for text, told in cases:
             with self.subTest(told):
