@@ -9,7 +9,6 @@ import re
 import zlib
 from collections.abc import Iterator
 from datetime import datetime
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -316,7 +315,6 @@ def groups_of_study(session: Path) -> list[str]:
     return next((groups for groups in kept if groups), [])
 
 
-@lru_cache(maxsize=8)
 def _groups_kept(file: Path) -> list[str]:
     if why_unreadable(file, MOST_YAML):
         return []

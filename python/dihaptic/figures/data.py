@@ -333,10 +333,8 @@ def _by_group(sittings: list[Sitting]) -> list[Sitting]:
     if not any(sitting.study_session and sitting.group for sitting in sittings):
         return sittings
     paths = list(dict.fromkeys(sitting.of for sitting in sittings))
-    groups: list[str] = []
-    for sitting in sittings:
-        if sitting.group not in groups:
-            groups += [name for name in groups_of_study(sitting.session.folder) if name not in groups]
+    one_of_each = {sitting.group: sitting for sitting in sittings}.values()
+    groups = dict.fromkeys(name for sitting in one_of_each for name in groups_of_study(sitting.session.folder))
     known = {name: place for place, name in enumerate(groups)}
     return sorted(sittings, key=lambda each: (paths.index(each.of), known.get(each.group.rpartition(", ")[2], len(known))))
 

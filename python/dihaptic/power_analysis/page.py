@@ -145,7 +145,8 @@ def write_page(result: Power, folder: Path) -> Path:
         page.text(text, "warning")
     if result.looks is not None:
         page.heading("Looks")
-        page.table(_shown_looks(result, who), _CAPTION_OF_LOOKS, keys=1)
+        of_bayes = " The level is that at which the Bayes factor exceeds the one that is asked for." * (result.test == "bayes")
+        page.table(_shown_looks(result, who), _CAPTION_OF_LOOKS + of_bayes, keys=1)
     page.heading("Power" if result.looks is None else "Power of a single test")
     svg = (folder / "power.svg").read_text(encoding="utf-8")
     caption = (
