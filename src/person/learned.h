@@ -16,13 +16,18 @@
 
 namespace dihaptic::person {
 
+/// What a person has learned from the movements in a state of the task.
+struct StateMemory {
+    RotationMemory rotation;
+    GainMemory gain;
+    ForceMemory force;
+};
+
 struct Learned {
-    /// Learned from movements in one task state, and recalled in the state of the same name.
+    /// Learned in one task state, and recalled in the state of the same name.
     struct InState {
         std::string state;
-        RotationMemory rotation;
-        GainMemory gain;
-        ForceMemory force;
+        StateMemory memory;
     };
     /// Learned about one object, and recalled for a body that has the same name and looks equally
     /// heavy.

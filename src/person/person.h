@@ -8,14 +8,16 @@
 #include <memory>
 #include <optional>
 
+#include "person/answers.h"
 #include "person/eyes.h"
-#include "person/force_memory.h"
-#include "person/gain_memory.h"
+#include "person/felt_hand.h"
 #include "person/grip.h"
 #include "person/held_cursor.h"
 #include "person/learned.h"
-#include "person/rotation_memory.h"
-#include "person/strain.h"
+#include "person/reach.h"
+#include "person/seen_targets.h"
+#include "person/state_memories.h"
+#include "person/strokes.h"
 #include "person/traits.h"
 #include "scene/scene.h"
 #include "task/run/seeing_driver.h"
@@ -50,10 +52,42 @@ class Person final : public task::SeeingDriver {
 
     const Grip& grip() const { return grip_; }
     /// What the person has learned about rotations in a state of the task, given by its index.
-    const RotationMemory& rotations(size_t state) const { return rotations_[memory_[state]]; }
-    const ForceMemory& forces(size_t state) const { return forces_[memory_[state]]; }
+    const RotationMemory& rotations(size_t state) const { return memories_.of(state).rotation; }
+    const ForceMemory& forces(size_t state) const { return memories_.of(state).force; }
 
   private:
+    /// The random numbers of a person, of several kinds: what is drawn for one of them does not
+    /// change the others.
+    struct Draws {
+        Draws(uint64_t seed, const std::string& id);
+
+        Random others;
+        Random lifts;    // noise of lifts
+        Random presses;  // noise of learned forces
+    };
+    /// Where in the task the person believes to be.
+    struct Cue {
+        int trial = 0;
+        int attempt = 0;
+        int phase = 0;
+        bool between = true;  // between trials
+    };
+    enum class Doing { nothing, waiting, moving, preloading, loading, releasing };
+    /// What the person is doing.
+    struct Action {
+        Doing doing = Doing::nothing;
+        int state = 0;  // whose steps are performed; later states without steps do not change it
+        size_t step = 0;
+        Aim way;              // current movement; in a lift, it starts when the object lifts off
+        double duration = 0;  // of that movement [s]
+        int corrections = 0;
+        double missed = 0;   // distance from the target before the last correction [m]
+        double touched = 0;  // half the aperture when both fingers touched [m]
+        double since = 0;    // start of the state, of the time between trials, or of idle time [s]
+        double wait_until = 0;  // [s]
+        double delay = 0;       // hesitation before the next movement of this trial [s]
+    };
+
     static constexpr double kReach =
         0.03;  // shortest movement from which rotations are learned [m]
     static constexpr double kShortest = 0.2;  // shortest duration of a stroke [s]
@@ -62,11 +96,9 @@ class Person final : public task::SeeingDriver {
     void do_see(const frame::Frame& frame) noexcept override;
     char do_take_key() noexcept override;
 
-    void recall_known() noexcept;
-    void measure(const frame::Frame& frame) noexcept;
+    void recall_bodies() noexcept;
     void follow_cues(const Sight& sight) noexcept;
     void await_trial() noexcept;
-    void see_targets(const Sight& sight) noexcept;
     void begin_attempt() noexcept;
     void go_on(const Sight& sight) noexcept;
     void go_on_moving(const Sight& sight) noexcept;
@@ -97,128 +129,48 @@ class Person final : public task::SeeingDriver {
     Vec3 made_for(const Vec3& displacement) const noexcept;
     void judge_extent(const Sight& sight) noexcept;
     Vec3 target(const Sight& sight, const task::TaskPlan::Step& step) const noexcept;
-    void answer(const Sight& sight) noexcept;
-    void rate(const task::TaskPlan::Questions& questions) noexcept;
     double stiffness() const noexcept;
     double noisy(double value, double share) noexcept;
     const std::vector<task::TaskPlan::Step>& steps() const noexcept;
 
+    StateMemory& memory() noexcept { return memories_.of(reach_.state); }
+    const StateMemory& memory() const noexcept { return memories_.of(reach_.state); }
+
     Traits traits_;
     std::shared_ptr<const task::TaskPlan> plan_;
     task::TrialNumbers numbers_;
-    std::vector<std::vector<task::TaskPlan::Step>> steps_;  // by state
-    size_t first_;                                          // index of the first finger of the hand
-    std::vector<hand::FingerPlace> places_;
-    std::optional<task::TaskHand> other_;  // moves the fingers of other hands, which feel nothing
     hand::Impedance impedance_;
-    Aim start_;
-    uint64_t seed_;
+    std::optional<task::TaskHand> other_;  // moves the fingers of other hands, which feel nothing
     std::vector<Phase> phases_;
+    uint64_t seed_;
+    Draws draws_;
 
     // senses
-    Random random_;
-    Random lifts_;     // apart from random_, so that the noise of lifts does not change reaches
-    Random presses_;   // likewise, for the noise of learned forces
     double now_ = 0;   // [s]
     double tick_ = 0;  // time since the last Frame [s]
+    FeltHand felt_;
+    Aim start_;
     Eyes eyes_;
     Touch touch_;
-    double half_ = 0;               // half the aperture of the handles [m]
-    double touched_ = 0;            // value of half_ when both fingers touched [m]
-    Vec3 centre_ = Vec3::Zero();    // middle of the handles [m]
-    Vec3 velocity_ = Vec3::Zero();  // of the middle of the handles [m/s]
-    double felt_ = 0;          // force on a finger, smoothed like the stiffness it determines [N]
-    Past<Vec3> velocities_;    // of the middle of the handles [m/s]
-    Past<Strain> strains_;     // read with the delay of sight, to be compared with it
-    std::vector<Vec3> known_;  // last seen position of each region [m]
+    Past<Strain> strains_;  // read with the delay of sight, to be compared with it
+    SeenTargets targets_;
     HeldCursor cursor_;
-    uint32_t seen_ = 0;  // regions that have been seen, one bit per region
+    Vec3 off_felt_ =
+        Vec3::Zero();  // last seen distance from the felt hand to the displayed one [m]
 
     // memory
     Learned before_;  // what was learned in earlier sessions
     std::vector<std::string> bodies_;
-    std::vector<size_t> memory_;  // by state: which of the following it uses
-    std::vector<char> appears_;   // by state: whether a hidden cursor appeared later, the last time
-    std::vector<RotationMemory> rotations_;  // by the first state that uses it
-    std::vector<GainMemory> gains_;          // likewise
-    std::vector<ForceMemory> forces_;        // likewise
+    std::vector<std::vector<task::TaskPlan::Step>> steps_;  // by state
+    StateMemories memories_;
     Grip grip_;
 
     // actions
-    enum class Doing { nothing, waiting, moving, preloading, loading, releasing };
-    Doing doing_ = Doing::nothing;
+    Cue cue_;
+    Action action_;
     Strokes aim_;
-    int trial_ = 0;
-    int attempt_ = 0;
-    int phase_ = 0;
-    int acting_ =
-        0;  // state whose steps are performed; later states without steps do not change it
-    bool between_ = true;    // between trials
-    double since_ = 0;       // start of the state, of the time between trials, or of idle time [s]
-    double wait_until_ = 0;  // [s]
-    size_t step_ = 0;
-    Aim pending_;              // current movement; in a lift, it starts when the object lifts off
-    double pending_time_ = 0;  // duration of pending_ [s]
-    int corrections_ = 0;
-    double missed_ = 0;    // distance from the target before the last correction [m]
-    double moved_at_ = 0;  // last time when the hand was felt to move [s]
-    Vec3 off_felt_ =
-        Vec3::Zero();   // last seen distance from the felt hand to the displayed one [m]
-    double delay_ = 0;  // hesitation before the next movement of this trial [s]
-    struct Reach {
-        bool going = false;
-        bool mended = false;  // whether the reach was corrected on the way
-        bool seen = false;    // whether its direction error was seen
-        bool ended = false;   // whether its first stroke has ended and its extent was judged
-        bool pushed = false;  // whether a push was felt before its error was judged
-        int number = 0;       // from 1
-        size_t state = 0;     // index of the state in which it began
-        bool hidden = false;  // whether it began without a cursor
-        double shows = 1;     // share of learned rotations that it shows
-        size_t memory = 0;    // index into rotations_, gains_ and forces_
-        Vec3 cursor_off = Vec3::Zero();  // jump of the cursor that is not answered yet [m]
-        double jumped_at = 0;            // last time without such a jump, or one of the target [s]
-        int jumps = 0;                   // number of jumps of the display that were answered
-        Vec3 from = Vec3::Zero();        // displayed position of the hand at the start [m]
-        Vec3 felt_from = Vec3::Zero();   // felt position of the hand at the start [m]
-        Vec3 way = Vec3::Zero();         // displacement that the display should show [m]
-        Vec3 error = Vec3::Zero();       // rotation vector from `way` to the hand's direction [rad]
-
-        double begin = 0;             // start time of its first stroke [s]
-        double duration = 0;          // duration of its first stroke [s]; 0 if not started
-        Vec3 along = Vec3::Zero();    // unit vector of the intended direction
-        Vec3 goal = Vec3::Zero();     // where the target was seen [m]
-        Vec3 strayed = Vec3::Zero();  // deviation of the first stroke from `along` by noise [m]
-        // by how much it has strayed, how much of that the hand has followed, and their rates
-        Vec3 strayed_so_far = Vec3::Zero();  // [m]
-        Vec3 straying = Vec3::Zero();        // [m/s]
-        Vec3 followed = Vec3::Zero();        // [m]
-        Vec3 following = Vec3::Zero();       // [m/s]
-        Vec3 held_back = Vec3::Zero();       // difference that is made by what holds the hand [m]
-        Vec3 held_back_rate = Vec3::Zero();  // [m/s]
-        Vec3 expects = Vec3::Zero();         // push expected, per speed along `along` [N*s/m]
-        Vec3 presses = Vec3::Zero();  // force that opposes a push, per speed along `along` [N*s/m]
-        Vec3 push = Vec3::Zero();     // sum of push times speed [N*m/s]
-        double lag = 0;               // time by which a push is expected to follow the speed [s]
-        // sums over the ticks, from which it is learned how much later the push came
-        Vec3 pushes = Vec3::Zero();        // of the push [N]
-        Vec3 timed_pushes = Vec3::Zero();  // of the push times its time [N*s]
-        double speeds = 0;                 // of the speed [m/s]
-        double timed_speeds = 0;           // of the speed times its time [m]
-        int ticks = 0;
-        double moved = 0;  // sum of squared speed [m^2/s^2]; 0 if nothing pushed
-    };
     Reach reach_;
-
-    // answers
-    Vec3 shown_from_ = Vec3::Zero();  // displayed start of the last sufficiently long movement [m]
-    Vec3 felt_from_ = Vec3::Zero();   // felt start of that movement [m]
-    double answer_at_ = -1;           // time of the answer [s]; negative if there is no question
-    size_t rated_ = 0;                // number of questions of the state that have been answered
-    char key_ = 0;
-    std::array<char, 12> typed_{};  // digits of the answer being typed
-    size_t typed_length_ = 0;
-    size_t typed_at_ = 0;
+    Answers answers_;
 };
 
 }  // namespace dihaptic::person

@@ -49,59 +49,60 @@ Vec3 rotated(const Vec3& rotation, const Vec3& v) noexcept {
 /// the walls of a channel that have just appeared, so that the reach begins without a force. A hand
 /// that moves as the arm gives way is not held, and the arm keeps its aim.
 void Person::give_way() noexcept {
-    const bool reaches = step_ < steps().size() && steps()[step_].step.reach.index >= 0;
-    if (!reaches || grip_.holds() || velocity_.norm() > kDrifts || now_ < aim_.end()) return;
-    const Vec3 off = centre_ - aim_.at(now_).centre;
+    const bool reaches =
+        action_.step < steps().size() && steps()[action_.step].step.reach.index >= 0;
+    if (!reaches || grip_.holds() || felt_.velocity().norm() > kDrifts || now_ < aim_.end()) return;
+    const Vec3 off = felt_.centre() - aim_.at(now_).centre;
     aim_.shift({std::min(1.0, tick_ / kGiving) * off, 0, 0});
 }
 
 /// Whether the hand makes a movement in two parts: an open hand approaches objects from above and
 /// moves upward to leave them, so that it does not sweep them away.
 bool Person::from_above(const Vec3& displacement) const noexcept {
-    return places_.size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
+    return felt_.places().size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
 }
 
 /// The movement that the hand must make so that the display shows `displacement`, as far as the
 /// person has learned this and shows it in this reach.
 Vec3 Person::made_for(const Vec3& displacement) const noexcept {
     if (displacement.norm() < 1e-9) return displacement;
-    const size_t m = memory_[static_cast<size_t>(acting_ - 1)];
+    const StateMemory& known = memories_.of(static_cast<size_t>(action_.state - 1));
     const Vec3 d = displacement.normalized();
-    const Vec3 turn = reach_.shows * rotations_[m].expected(d);
-    return std::exp(-gains_[m].expected(d)) * rotated(-turn, displacement);
+    const Vec3 turn = reach_.shows * known.rotation.expected(d);
+    return std::exp(-known.gain.expected(d)) * rotated(-turn, displacement);
 }
 
 /// Plans a reach from where the hand is seen to `goal`. Returns the hand's movement.
 Vec3 Person::plan_reach(const Sight& sight, const Vec3& goal) noexcept {
-    const Vec3 displacement = look(goal, traits_.visual_noise, random_) -
-                              look(hand(sight), traits_.visual_noise, random_);
+    const Vec3 displacement = look(goal, traits_.visual_noise, draws_.others) -
+                              look(hand(sight), traits_.visual_noise, draws_.others);
     if (displacement.norm() < kReach) return made_for(displacement);
     end_reach();
-    const auto state = static_cast<size_t>(acting_ - 1);
+    const auto state = static_cast<size_t>(action_.state - 1);
     // a cursor that appeared later in the reach, the last time that it was hidden at first, will do
     // so again
-    const bool unseen = !sight.hand_shown && !appears_[state];
+    const bool unseen = !sight.hand_shown && !memories_.cursor_appears(state);
     reach_ = {.going = true,
+              .hidden = !sight.hand_shown,
               .number = reach_.number + 1,
               .state = state,
-              .hidden = !sight.hand_shown,
               .shows = unseen ? traits_.unseen_share : 1,
-              .memory = memory_[state],
               .from = hand(sight),
               .felt_from = felt_hand(),
-              .way = displacement,
-              .goal = goal};
+              .goal = goal,
+              .way = displacement};
     const Vec3 made = made_for(displacement);
     reach_.along = made.normalized();
-    reach_.expects = forces_[reach_.memory].expected(reach_.along);
-    reach_.presses = -(1 + traits_.force_noise * presses_.normal()) * reach_.expects;
-    reach_.lag = forces_[reach_.memory].lag();
-    const Vec3 noise(random_.normal(), random_.normal(), random_.normal());
-    const double learned = rotations_[reach_.memory].learned(displacement.normalized());
+    Pushes& pushes = reach_.pushes;
+    pushes.expected = memory().force.expected(reach_.along);
+    pushes.opposed = -(1 + traits_.force_noise * draws_.presses.normal()) * pushes.expected;
+    pushes.lag = memory().force.lag();
+    const Vec3 noise(draws_.others.normal(), draws_.others.normal(), draws_.others.normal());
+    const double learned = memory().rotation.learned(displacement.normalized());
     const double sd = std::hypot(traits_.direction_noise, traits_.adapted_noise * learned) *
                       (from_above(displacement) ? kGuided : 1);
     const Vec3 way = noisy(1, traits_.extent_noise) * rotated(sd * noise, made);
-    reach_.strayed = astray(way, goal - hand(sight));
+    reach_.stray.whole = astray(way, goal - hand(sight));
     return way;
 }
 
@@ -127,24 +128,24 @@ bool Person::pushed(const frame::Frame& frame) const noexcept {
 /// this state and is not being pushed now, small strains are attributed to the hand's own noise.
 Strain Person::strain(const frame::Frame& frame) const noexcept {
     Strain out;
-    out.hand = centre_;
+    out.hand = felt_.centre();
     if (!reach_.going || reach_.duration == 0) return out;
     const double done = (now_ - reach_.begin) / reach_.duration;
-    const double delayed = done - reach_.lag / reach_.duration;
-    if (delayed >= 1 || (forces_[reach_.memory].empty() && !pushed(frame))) return out;
+    const double delayed = done - reach_.pushes.lag / reach_.duration;
+    if (delayed >= 1 || (memory().force.empty() && !pushed(frame))) return out;
     const Aim aim = aim_.at(now_);
     const Aim rate = aim_.rate(now_);
-    const auto count = static_cast<double>(places_.size());
-    const Vec3 off = centre_ - aim.centre + reach_.strayed_so_far - reach_.followed;
-    const Vec3 drift = velocity_ - rate.centre + reach_.straying - reach_.following;
+    const Vec3 off = felt_.centre() - aim.centre + reach_.stray.so_far - reach_.stray.followed;
+    const Vec3 drift = felt_.velocity() - rate.centre + reach_.stray.rate - reach_.stray.following;
     out.push_W = stiffness() * off + impedance_.damping * drift;
     if (grip_.holds()) {
-        out.push_W -= grip_.inertial() / count;
+        out.push_W -= grip_.inertial() / felt_.fingers();
         out.push_W.z() = 0;  // the weight of an object has a memory of its own
     }
     // a push that the hand opposed is no longer felt, but it did act
-    out.push_W -= aim_.rate(now_ - reach_.lag).centre.dot(reach_.along) * reach_.presses;
-    if (delayed > 0) out.speed = velocities_.before(reach_.lag).dot(reach_.along);
+    out.push_W -=
+        aim_.rate(now_ - reach_.pushes.lag).centre.dot(reach_.along) * reach_.pushes.opposed;
+    if (delayed > 0) out.speed = felt_.velocity_before(reach_.pushes.lag).dot(reach_.along);
     out.time = now_ - reach_.begin;
     out.reach = reach_.number;
     return out;
@@ -153,22 +154,17 @@ Strain Person::strain(const frame::Frame& frame) const noexcept {
 /// Accumulates the push on the hand. Between trials, the push may end before the movement does.
 void Person::feel_strain() noexcept {
     const Strain& felt = strains_.before(traits_.visual_delay);
-    if (!reach_.going || between_ || felt.reach != reach_.number) return;
-    reach_.push += felt.speed * felt.push_W;
-    reach_.moved += felt.speed * felt.speed;
-    reach_.pushes += felt.push_W;
-    reach_.timed_pushes += felt.time * felt.push_W;
-    reach_.speeds += felt.speed;
-    reach_.timed_speeds += felt.time * felt.speed;
-    ++reach_.ticks;
+    if (!reach_.going || cue_.between || felt.reach != reach_.number) return;
+    reach_.pushes.add(felt);
 }
 
 /// Learns how much later than expected the push of this reach came, if it was clearly felt.
 void Person::learn_lag() noexcept {
-    const double total = reach_.pushes.norm();
-    if (total < kClearPush * reach_.ticks || reach_.speeds <= 0) return;
-    const double middle = reach_.timed_pushes.dot(reach_.pushes) / (total * total);
-    forces_[reach_.memory].learn_lag(middle - reach_.timed_speeds / reach_.speeds);
+    const Pushes& pushes = reach_.pushes;
+    const double total = pushes.sum.norm();
+    if (total < kClearPush * pushes.ticks || pushes.speeds <= 0) return;
+    const double middle = pushes.timed.dot(pushes.sum) / (total * total);
+    memory().force.learn_lag(middle - pushes.timed_speeds / pushes.speeds);
 }
 
 /// Moves the noise of a reach. It is a noise of the force that moves the arm, so that a hand that
@@ -181,32 +177,32 @@ void Person::learn_lag() noexcept {
 /// h is the hand's deviation from the way without noise, as far as it lies between 0 and z: the
 /// rest was caused by something else.
 void Person::stray() noexcept {
-    const double most = reach_.strayed.norm();
+    Stray& stray = reach_.stray;
+    const double most = stray.whole.norm();
     if (!reach_.going || reach_.duration == 0 || most == 0) return;
-    const Vec3 aside = reach_.strayed / most;
+    const Vec3 aside = stray.whole / most;
     const model::MinimumJerk share = model::minimum_jerk((now_ - reach_.begin) / reach_.duration);
     const double rate = most * share.rate / reach_.duration;
-    const double z = most * share.share + reach_.held_back.dot(aside);
-    const double z_rate = rate + reach_.held_back_rate.dot(aside);
-    const double off = most * share.share + (centre_ - aim_.at(now_).centre).dot(aside);
-    const double off_rate = rate + (velocity_ - aim_.rate(now_).centre).dot(aside);
+    const double z = most * share.share + stray.held_back.dot(aside);
+    const double z_rate = rate + stray.held_back_rate.dot(aside);
+    const double off = most * share.share + (felt_.centre() - aim_.at(now_).centre).dot(aside);
+    const double off_rate = rate + (felt_.velocity() - aim_.rate(now_).centre).dot(aside);
     const double h = std::clamp(off, std::min(0.0, z), std::max(0.0, z));
     const double h_rate = h == off ? off_rate : h == z ? z_rate : 0;
-    reach_.strayed_so_far = most * share.share * aside;
-    reach_.straying = rate * aside;
-    reach_.followed = h * aside;
-    reach_.following = h_rate * aside;
+    stray.so_far = most * share.share * aside;
+    stray.rate = rate * aside;
+    stray.followed = h * aside;
+    stray.following = h_rate * aside;
     if (now_ > reach_.begin + reach_.duration) {
         // the arm rests where its stroke has led, and gives way to what holds the hand elsewhere
-        reach_.held_back_rate.setZero();
-        if (std::abs(velocity_.dot(aside)) < kDrifts)
-            reach_.held_back -= std::min(1.0, tick_ / kGiving) * (z - h) * aside;
+        stray.held_back_rate.setZero();
+        if (std::abs(felt_.velocity().dot(aside)) < kDrifts)
+            stray.held_back -= std::min(1.0, tick_ / kGiving) * (z - h) * aside;
         return;
     }
     const double holds = stiffness() * (z - h) + impedance_.damping * (z_rate - h_rate);
-    const auto count = static_cast<double>(places_.size());
-    reach_.held_back_rate -= count * holds / kArmMass * tick_ * aside;
-    reach_.held_back += reach_.held_back_rate * tick_;
+    stray.held_back_rate -= felt_.fingers() * holds / kArmMass * tick_ * aside;
+    stray.held_back += stray.held_back_rate * tick_;
 }
 
 /// Adds a stroke to the reach that makes up for a jump of the target or of the cursor.
@@ -215,7 +211,7 @@ void Person::redirect(const Vec3& displacement) noexcept {
     aim_.add({made_for(displacement), 0, 0}, now_, std::max(kRedirected, aim_.end() - now_));
     // a reach that was redirected does not tell how well it was planned
     reach_.mended = reach_.ended = true;
-    if (!reach_.seen) reach_.pushed = reach_.moved > 0;
+    if (!reach_.seen) reach_.pushed = reach_.pushes.moved > 0;
     reach_.seen = true;
 }
 
@@ -225,11 +221,12 @@ void Person::follow_jumps(const Sight& sight) noexcept {
     const Vec3 off_felt = sight.hand - felt_hand();
     const Vec3 jump = off_felt - off_felt_;
     off_felt_ = off_felt;
-    if (!reach_.going || reach_.duration == 0 || doing_ != Doing::moving || between_) return;
+    if (!reach_.going || reach_.duration == 0 || action_.doing != Doing::moving || cue_.between)
+        return;
     if (reach_.jumps >= kMostJumps) return;
     const bool cursor_jumps = sight.hand_shown && !cursor_.is_held() && jump.norm() > kJump;
     if (cursor_jumps) reach_.cursor_off += jump;
-    const Vec3 aside = target(sight, steps()[step_]) - reach_.goal;
+    const Vec3 aside = target(sight, steps()[action_.step]) - reach_.goal;
     const bool off = aside.norm() > kJump || reach_.cursor_off != Vec3::Zero();
     if (!off) reach_.jumped_at = now_;
     if (!off || now_ < reach_.jumped_at + kSeenJump) return;
@@ -254,24 +251,24 @@ void Person::watch_reach(const Sight& sight) noexcept {
     const double length = reach_.way.norm();
     if (!reach_.mended && shown.norm() >= kGlance * length) {
         reach_.mended = true;
-        const Vec3 arm = look(shown, traits_.visual_noise, random_).normalized();
+        const Vec3 arm = look(shown, traits_.visual_noise, draws_.others).normalized();
         const Vec3 missed = reach_.way - length * arm;
         const double left = std::max(kShortest, aim_.end() - now_);
         const double share =
             traits_.online_correction *
             beyond_noise(rotation_between(reach_.way / length, arm).norm(), shown.norm());
-        if (doing_ == Doing::moving && share > 0 && !cursor_.is_held())
+        if (action_.doing == Doing::moving && share > 0 && !cursor_.is_held())
             aim_.add({share * made_for(missed), 0, 0}, now_, left);
     }
     if (shown.norm() < kJudged * length) return;
     reach_.seen = true;
-    const Vec3 arm = look(shown, traits_.visual_noise, random_);
+    const Vec3 arm = look(shown, traits_.visual_noise, draws_.others);
     Vec3 wanted = reach_.way;
-    reach_.pushed = reach_.moved > 0;  // later pushes belong to the next state
+    reach_.pushed = reach_.pushes.moved > 0;  // later pushes belong to the next state
     if (reach_.pushed) {
         // a pushed hand is seen where it is felt to be, turned by the expected rotation
         const Vec3 felt = felt_where_shown() - reach_.felt_from;
-        wanted = rotated(rotations_[reach_.memory].expected(reach_.way.normalized()), felt);
+        wanted = rotated(memory().rotation.expected(reach_.way.normalized()), felt);
     }
     const Vec3 error = rotation_between(wanted.normalized(), arm.normalized());
     reach_.error = beyond_noise(error.norm(), shown.norm()) * error;
@@ -282,51 +279,52 @@ void Person::watch_reach(const Sight& sight) noexcept {
 void Person::judge_extent(const Sight& sight) noexcept {
     if (!reach_.going || reach_.ended || !sight.hand_shown || shows_earlier_reach()) return;
     reach_.ended = true;
-    const double shown =
-        look(sight.hand - reach_.from, traits_.visual_noise, random_).dot(reach_.way.normalized());
+    const double shown = look(sight.hand - reach_.from, traits_.visual_noise, draws_.others)
+                             .dot(reach_.way.normalized());
     const double least = 0.1 * reach_.way.norm();  // shorter movements do not reveal the extent
     if (shown < least) return;
     const Vec3 d = reach_.way.normalized();
     double wanted = reach_.way.norm();
     if (reach_.pushed || cursor_.is_held()) {
         const Vec3 felt = felt_where_shown() - reach_.felt_from;
-        wanted = std::exp(gains_[reach_.memory].expected(d)) * felt.norm();
+        wanted = std::exp(memory().gain.expected(d)) * felt.norm();
         if (wanted < least) return;
     }
-    gains_[reach_.memory].learn(d, std::log(shown / wanted));
+    memory().gain.learn(d, std::log(shown / wanted));
 }
 
 void Person::end_reach() noexcept {
-    if (reach_.going && reach_.hidden) appears_[reach_.state] = reach_.seen;
+    if (reach_.going && reach_.hidden) memories_.note_cursor(reach_.state, reach_.seen);
     if (reach_.going && reach_.seen) {
-        rotations_[reach_.memory].learn(reach_.way.normalized(), reach_.error);
+        memory().rotation.learn(reach_.way.normalized(), reach_.error);
         if (reach_.pushed) {
-            forces_[reach_.memory].learn(reach_.along, reach_.push / reach_.moved - reach_.expects);
+            memory().force.learn(
+                reach_.along, reach_.pushes.impulse / reach_.pushes.moved - reach_.pushes.expected);
             learn_lag();
         }
     }
-    aim_.shift({reach_.held_back, 0, 0});
-    reach_.held_back = reach_.held_back_rate = Vec3::Zero();
+    aim_.shift({reach_.stray.held_back, 0, 0});
+    reach_.stray.held_back = reach_.stray.held_back_rate = Vec3::Zero();
     reach_.going = false;
 }
 
 /// Corrects the visible endpoint of a reach with another stroke. Returns whether the reach
 /// continues, either with a stroke or because its endpoint is not visible yet.
 bool Person::correct(const Sight& sight) noexcept {
-    const TaskPlan::Step& step = steps()[step_];
-    if (step.step.reach.index < 0 || corrections_ >= kMostCorrections) return false;
-    const double still = std::min(moved_at_, aim_.end() + kPatience);
+    const TaskPlan::Step& step = steps()[action_.step];
+    if (step.step.reach.index < 0 || action_.corrections >= kMostCorrections) return false;
+    const double still = std::min(felt_.moved_at(), aim_.end() + kPatience);
     if (now_ < std::max(aim_.end() + kSettled, still) + traits_.visual_delay) return true;
     if (!sight.hand_shown) return false;  // a hidden hand is assumed to be at its goal
     judge_extent(sight);
     if (cursor_.is_held()) return false;  // a held cursor does not follow the hand
-    const Vec3 missed = look(target(sight, step) - sight.hand, traits_.visual_noise, random_);
+    const Vec3 missed = look(target(sight, step) - sight.hand, traits_.visual_noise, draws_.others);
     if (missed.norm() < kGoodEnough) return false;
     // if the display rotates movements by more than 70 degrees, each stroke leads further away
-    const bool worse = missed.norm() > std::max(kReach, kWorse * missed_);
-    if (corrections_ > 0 && worse && !reach_.pushed) return false;
-    missed_ = missed.norm();
-    ++corrections_;
+    const bool worse = missed.norm() > std::max(kReach, kWorse * action_.missed);
+    if (action_.corrections > 0 && worse && !reach_.pushed) return false;
+    action_.missed = missed.norm();
+    ++action_.corrections;
     aim_.add({made_for(missed), 0, 0}, now_, kShortest);
     return true;
 }

@@ -64,8 +64,7 @@ Servo::Servo(const scene::Scene& scene, const frame::Settings& settings,
       period_(from_seconds(settings.tick())),
       world_(scene, settings.dynamics),
       devices_(std::move(devices)),
-      X_0D_(std::move(X_WD)),
-      turn_(X_0D_),
+      turn_(X_WD),
       late_(period_),
       damping_(std::numeric_limits<double>::infinity()),
       in_force_(settings.coupling),
@@ -78,8 +77,6 @@ Servo::Servo(const scene::Scene& scene, const frame::Settings& settings,
         if (safety.hand_damping) damping_ = *safety.hand_damping;
         devices_->limit(static_cast<int>(i), safety.largest_force(info.peak_force, info.scale),
                         safety.largest_torque(info.peak_torque));
-        force_guards_.emplace_back(settings.safety, info, box_of(info, X_0D_[i], wall),
-                                   settings.tick());
         if (scene.fingers[i].name == settings.safety.dead_man_finger)
             dead_man_ = static_cast<int>(i);
         const scene::Finger& finger = scene.fingers[i];
@@ -88,20 +85,18 @@ Servo::Servo(const scene::Scene& scene, const frame::Settings& settings,
         const bool changeable = settings.proxy.changeable && !finger.proxy;
         const bool turns = info.measures_orientation && (changeable || turns_with_handle(kind));
         const dynamics::BodyIndex proxy = add_proxy(world_, finger, kind, changeable, turns);
-        fingers_.push_back(make_finger(scene, i, proxy, kind));
-        spares_.emplace_back();
-        if (changeable) spares_.back().emplace(make_finger(scene, i, proxy, other_than(kind)));
-        X_D0_.push_back(X_0D_[i].inverse());
-        guards_.emplace_back(settings.safety.max_speed * info.scale);
+        loops_.push_back({make_finger(scene, i, proxy, kind),
+                          std::nullopt,
+                          X_WD[i],
+                          X_WD[i].inverse(),
+                          haptics::HandleGuard(settings.safety.max_speed * info.scale),
+                          {settings.safety, info, box_of(info, X_WD[i], wall), settings.tick()}});
+        if (changeable) loops_[i].spare.emplace(make_finger(scene, i, proxy, other_than(kind)));
     }
     commands_.knobs = frame::Knobs::of(settings);
-    const size_t n = fingers_.size();
+    const size_t n = loops_.size();
     readings_.resize(n);
     handles_.resize(n);
-    unturned_.resize(n);
-    moves_.resize(n);
-    device_faults_.resize(n);
-    forces_.resize(n);
     sent_D_.resize(n);
 }
 
@@ -142,12 +137,13 @@ haptics::Finger Servo::make_finger(const scene::Scene& scene, size_t finger,
 
 void Servo::change_proxies(scene::ProxyKind kind) noexcept {
     settings_.proxy.kind = kind;
-    for (size_t i = 0; i < fingers_.size(); ++i) {
-        if (!spares_[i]) continue;
-        std::swap(fingers_[i], *spares_[i]);
-        world_.set_point(fingers_[i].proxy(), kind == scene::ProxyKind::point);
-        fingers_[i].retune(in_force_);
-        fingers_[i].place(world_, handles_[i]);
+    for (size_t i = 0; i < loops_.size(); ++i) {
+        Loop& loop = loops_[i];
+        if (!loop.spare) continue;
+        std::swap(loop.finger, *loop.spare);
+        world_.set_point(loop.finger.proxy(), kind == scene::ProxyKind::point);
+        loop.finger.retune(in_force_);
+        loop.finger.place(world_, handles_[i]);
     }
     soft_start_.restart();
 }
@@ -164,7 +160,7 @@ void Servo::activate() {
 }
 
 void Servo::reserve(frame::Frame& frame) const {
-    frame.fingers.resize(fingers_.size());
+    frame.fingers.resize(loops_.size());
     frame.turns.resize(turning_.size());
     frame.bodies.resize(static_cast<size_t>(world_.scene_size()));
     frame.joints.resize(world_.joints().size());
@@ -192,11 +188,11 @@ void Servo::resume() {
         if (world_.diverged()) world_.mend();
         faults_ = {};
     }
-    for (size_t i = 0; i < guards_.size(); ++i) {
-        guards_[i] = haptics::HandleGuard(settings_.safety.max_speed *
-                                          devices_->info(static_cast<int>(i)).scale);
+    for (size_t i = 0; i < loops_.size(); ++i) {
+        const double scale = devices_->info(static_cast<int>(i)).scale;
+        loops_[i].handle_guard = haptics::HandleGuard(settings_.safety.max_speed * scale);
+        loops_[i].force_guard.restart();
     }
-    for (haptics::ForceGuard& guard : force_guards_) guard.restart();
     soft_start_.restart();
     late_.restart();
     stopped_ = false;
@@ -217,9 +213,7 @@ bool Servo::stop_devices() noexcept {
 }
 
 void Servo::note_timing(double lateness, double last_tick, bool overrun) noexcept {
-    lateness_ = lateness;
-    last_tick_ = last_tick;
-    overrun_ = overrun;
+    timing_ = {lateness, last_tick, overrun};
 }
 
 const frame::Frame& Servo::tick(Time now, const frame::Director& director) noexcept {
@@ -257,14 +251,14 @@ dynamics::StepStatus Servo::advance_world() noexcept {
     order_bodies();
     order_joints();
     const double h = settings_.step();
-    for (size_t i = 0; i < fingers_.size(); ++i) fingers_[i].begin_tick(world_, handles_[i], h);
+    for (size_t i = 0; i < loops_.size(); ++i) loops_[i].finger.begin_tick(world_, handles_[i], h);
     if (!steps_now()) return dynamics::StepStatus::ok;
     world_.set_solver(commands_.knobs.solver);
     apply_loads();
-    for (size_t i = 0; i < fingers_.size(); ++i) fingers_[i].before_step(world_, handles_[i], h);
+    for (size_t i = 0; i < loops_.size(); ++i) loops_[i].finger.before_step(world_, handles_[i], h);
     const dynamics::StepStatus status = world_.step(h);
     if (status == dynamics::StepStatus::diverged) return status;
-    for (size_t i = 0; i < fingers_.size(); ++i) fingers_[i].after_step(world_, handles_[i]);
+    for (size_t i = 0; i < loops_.size(); ++i) loops_[i].finger.after_step(world_, handles_[i]);
     return status;
 }
 
@@ -276,29 +270,30 @@ void Servo::measure(Time now) noexcept {
     const double moved_for = elapsed > 0 ? std::max(elapsed, settings_.tick()) : 0;
     if ((real_ && lateness_fault_) || faults_.tripped()) turn_.stop();
     turn_.advance(elapsed);
-    for (size_t i = 0; i < fingers_.size(); ++i) {
-        frame::Handle read{X_0D_[i] * readings_[i].p_DH, X_0D_[i].R * readings_[i].v_DH};
+    for (size_t i = 0; i < loops_.size(); ++i) {
+        Loop& loop = loops_[i];
+        const Quat& R_0D = loop.X_0D.R;
+        frame::Handle read{loop.X_0D * readings_[i].p_DH, R_0D * readings_[i].v_DH};
         const bool orientation = devices_->info(static_cast<int>(i)).measures_orientation;
         if (orientation) {
             // the same rotation, expressed in the world's axes
-            const Quat& R_0D = X_0D_[i].R;
             read.R_WH = R_0D * readings_[i].R_DH * R_0D.conjugate();
             read.w_WH = R_0D * readings_[i].w_DH;
         }
         haptics::Fault fault;
         fault.device = static_cast<int>(i);
         fault.time = now;
-        const frame::Handle before = unturned_[i];
-        unturned_[i] = guards_[i].accept(read, reported_by(readings_[i]), moved_for, fault);
-        moves_[i] = {unturned_[i].p_WH - before.p_WH,
-                     rotation_vector(unturned_[i].R_WH * before.R_WH.conjugate())};
-        device_faults_[i] = fault.kind;
+        const frame::Handle before = loop.unturned;
+        loop.unturned = loop.handle_guard.accept(read, reported_by(readings_[i]), moved_for, fault);
+        loop.move = {loop.unturned.p_WH - before.p_WH,
+                     rotation_vector(loop.unturned.R_WH * before.R_WH.conjugate())};
+        loop.device_fault = fault.kind;
         faults_.trip(fault);
-        handles_[i] = turn_.turned(unturned_[i], orientation);
+        handles_[i] = turn_.turned(loop.unturned, orientation);
         // a hand that moved during a pause must not fling away the objects in its path
         const bool elsewhere =
             resumed_ && (handles_[i].p_WH - frame_.fingers[i].p_WH).norm() > kElsewhere;
-        if (frame_.sequence < 0 || elsewhere || anew_) fingers_[i].place(world_, handles_[i]);
+        if (frame_.sequence < 0 || elsewhere || anew_) loop.finger.place(world_, handles_[i]);
     }
     anew_ = false;
     // judged after the devices' reports, which say more than the pauses that they cause
@@ -312,8 +307,7 @@ void Servo::turn_workspaces(double rate) noexcept {
         turn_.order(rate, std::max(elapsed_, settings_.tick()));
     }
     if (turn_.rate() == 0 && frame_.workspace_rate == 0) return;
-    for (const haptics::Finger& finger : fingers_)
-        finger.carry(world_, turn_.R(), turn_.angular_velocity());
+    for (const Loop& loop : loops_) loop.finger.carry(world_, turn_.R(), turn_.angular_velocity());
 }
 
 void Servo::make_forces(Time now) noexcept {
@@ -324,21 +318,22 @@ void Servo::make_forces(Time now) noexcept {
     const auto judge_shaking = [&](haptics::FaultKind kind, size_t i, double by) {
         if (by > 0 && !waits) faults_.trip({kind, static_cast<int>(i), now, by});
     };
-    for (size_t i = 0; i < fingers_.size(); ++i) {
-        Force& force = forces_[i];
+    for (size_t i = 0; i < loops_.size(); ++i) {
+        Loop& loop = loops_[i];
+        Force& force = loop.force;
         const Wrench last_0 = force.sent_0;
         force = {};
         force.last_0 = last_0;
         if (world_.diverged()) continue;  // a diverged world no longer determines a force
-        force.asked_W.force = fingers_[i].force(world_, handles_[i], settings_.tick());
-        force.asked_W.torque = fingers_[i].torque();
-        const Pose& X_WP = world_.state(fingers_[i].proxy()).X_WB;
-        force.felt_W = force_guards_[i].shape(force.asked_W, handles_[i], X_WP,
-                                              fingers_[i].stored(), stepped, force.status);
-        judge_shaking(haptics::FaultKind::active, i, force_guards_[i].feeding());
+        force.asked_W.force = loop.finger.force(world_, handles_[i], settings_.tick());
+        force.asked_W.torque = loop.finger.torque();
+        const Pose& X_WP = world_.state(loop.finger.proxy()).X_WB;
+        force.felt_W = loop.force_guard.shape(force.asked_W, handles_[i], X_WP,
+                                              loop.finger.stored(), stepped, force.status);
+        judge_shaking(haptics::FaultKind::active, i, loop.force_guard.feeding());
         add_loads(i, force.felt_W);
         force.felt_0 = turn_.unturned(force.felt_W);
-        force.felt_0.force += force_guards_[i].push(unturned_[i], force.status);
+        force.felt_0.force += loop.force_guard.push(loop.unturned, force.status);
         asked = asked || !force.felt_0.is_zero();
     }
     const bool held = switch_held();
@@ -347,24 +342,26 @@ void Servo::make_forces(Time now) noexcept {
     const bool allowed = held && !any_force_dropped(readings_) && !commands_.rest;
     const double rising = soft_start_.share(allowed, asked, settings_.tick());
     const double share = resumed_ ? 0 : rising;  // zero after a pause, even without a soft start
-    for (size_t i = 0; i < fingers_.size(); ++i) {
-        Force& force = forces_[i];
+    for (size_t i = 0; i < loops_.size(); ++i) {
+        haptics::ForceGuard& guard = loops_[i].force_guard;
+        Force& force = loops_[i].force;
         bound_rise(i, share);
-        force.sent_0 = force_guards_[i].limit(force.felt_0, allowed, share, force.status);
+        force.sent_0 = guard.limit(force.felt_0, allowed, share, force.status);
         if (held) force.status &= ~uint32_t{kSwitchedOff};
-        judge_shaking(haptics::FaultKind::chatters, i, force_guards_[i].chatter());
+        judge_shaking(haptics::FaultKind::chatters, i, guard.chatter());
         if (force.status & kNotFinite)
             faults_.trip({haptics::FaultKind::not_finite, static_cast<int>(i), now});
     }
     // a fault of one finger switches all fingers off: half a grasp would throw the hand aside
-    for (size_t i = 0; i < fingers_.size(); ++i) {
+    for (size_t i = 0; i < loops_.size(); ++i) {
+        Loop& loop = loops_[i];
         if (faults_.tripped()) {
-            forces_[i].sent_0 = {};
-            force_guards_[i].drop();
+            loop.force.sent_0 = {};
+            loop.force_guard.drop();
         }
-        const Wrench& sent_0 = forces_[i].sent_0;
-        sent_D_[i] = {X_D0_[i].R * sent_0.force, X_D0_[i].R * sent_0.torque};
-        forces_[i].sent_W = turn_.turned(sent_0);
+        const Wrench& sent_0 = loop.force.sent_0;
+        sent_D_[i] = {loop.X_D0.R * sent_0.force, loop.X_D0.R * sent_0.torque};
+        loop.force.sent_W = turn_.turned(sent_0);
     }
 }
 
@@ -427,7 +424,7 @@ void Servo::apply_loads() noexcept {
 void Servo::add_loads(size_t finger, Wrench& felt_W) const noexcept {
     Wrench sum;
     for (const frame::LoadFrame& load : commands_.task.loads) {
-        if (load.body != fingers_[finger].proxy().value) continue;
+        if (load.body != loops_[finger].finger.proxy().value) continue;
         sum.force += load.force_W;
         sum.torque += load.torque_W;
     }

@@ -114,7 +114,7 @@ void Servo::make_frame(Time now, const frame::Commands& commands,
     frame_.phase = commands.phase;
     frame_.task = commands.task;
     frame_.status = step_status(step, world_);
-    if (overrun_) frame_.status |= kOverrun;
+    if (timing_.overrun) frame_.status |= kOverrun;
     if (std::exchange(resumed_, false)) frame_.status |= kResumed;
     if (commands.rest) frame_.status |= kPaused;
     if (faults_.tripped()) frame_.status |= kForceOff;
@@ -127,16 +127,17 @@ void Servo::make_frame(Time now, const frame::Commands& commands,
     note_balance(world_.balance(), frame_);
     frame_.workspace_turn = turn_.angle();
     frame_.workspace_rate = turn_.rate();
-    frame_.lateness = lateness_;
-    frame_.tick_duration = last_tick_;
-    for (size_t i = 0; i < fingers_.size(); ++i) {
+    frame_.lateness = timing_.lateness;
+    frame_.tick_duration = timing_.last_tick;
+    for (size_t i = 0; i < loops_.size(); ++i) {
         frame::FingerFrame& out = frame_.fingers[i];
-        const haptics::ProxyTouch& touch = fingers_[i].touch();
+        const haptics::ProxyTouch& touch = loops_[i].finger.touch();
         out.buttons = readings_[i].buttons;
-        out.status = readings_[i].status | forces_[i].status | fault_status(device_faults_[i]);
-        note_motion(readings_[i], handles_[i], world_.state(fingers_[i].proxy()), out);
-        out.f_asked_W = forces_[i].asked_W.force;
-        out.f_sent_W = forces_[i].sent_W.force;
+        out.status =
+            readings_[i].status | loops_[i].force.status | fault_status(loops_[i].device_fault);
+        note_motion(readings_[i], handles_[i], world_.state(loops_[i].finger.proxy()), out);
+        out.f_asked_W = loops_[i].force.asked_W.force;
+        out.f_sent_W = loops_[i].force.sent_W.force;
         out.f_contact_W = touch.f_P_W;
         out.normal_force = touch.normal_force;
         frame_.status |= out.status;
@@ -147,9 +148,9 @@ void Servo::make_frame(Time now, const frame::Commands& commands,
                            readings_[i].w_DH,
                            handles_[i].R_WH,
                            handles_[i].w_WH,
-                           world_.state(fingers_[i].proxy()).w_WB,
-                           forces_[i].asked_W.torque,
-                           forces_[i].sent_W.torque};
+                           world_.state(loops_[i].finger.proxy()).w_WB,
+                           loops_[i].force.asked_W.torque,
+                           loops_[i].force.sent_W.torque};
     }
     note_bodies(world_, frame_);
     note_joints(world_.joints(), frame_);
@@ -160,7 +161,7 @@ void Servo::make_frame(Time now, const frame::Commands& commands,
 void Servo::merge_contacts() noexcept {
     frame_.contacts.clear();
     merge_contacts(world_.contacts());
-    for (const haptics::Finger& finger : fingers_) merge_contacts(finger.contacts());
+    for (const Loop& loop : loops_) merge_contacts(loop.finger.contacts());
 }
 
 void Servo::merge_contacts(std::span<const contact::Contact> contacts) noexcept {
@@ -197,17 +198,17 @@ void Servo::merge_contacts(std::span<const contact::Contact> contacts) noexcept 
 void Servo::measure_grasp() noexcept {
     const Vec3 down = world_.gravity().normalized();
     frame_.load_force = 0;
-    for (const haptics::Finger& finger : fingers_) {
-        const haptics::ProxyTouch& touch = finger.touch();
+    for (const Loop& loop : loops_) {
+        const haptics::ProxyTouch& touch = loop.finger.touch();
         const Vec3 tangential = touch.f_P_W - touch.f_P_W.dot(touch.n_W) * touch.n_W;
         frame_.load_force += tangential.dot(down);
     }
-    if (fingers_.size() < 2) return;
+    if (loops_.size() < 2) return;
     const Vec3 axis = model::grasp_axis(
-        fingers_.size(), [&](size_t i) -> const Vec3& { return frame_.fingers[i].p_WP; });
+        loops_.size(), [&](size_t i) -> const Vec3& { return frame_.fingers[i].p_WP; });
     double squeeze = 0;
-    for (size_t i = 0; i < fingers_.size(); ++i) {
-        const haptics::ProxyTouch& touch = fingers_[i].touch();
+    for (size_t i = 0; i < loops_.size(); ++i) {
+        const haptics::ProxyTouch& touch = loops_[i].finger.touch();
         squeeze += (i == 0 ? -1 : 1) * touch.normal_force * touch.n_W.dot(axis);
     }
     frame_.grip_force = squeeze / 2;

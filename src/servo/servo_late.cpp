@@ -12,8 +12,8 @@ void Servo::judge_lateness(Time now, double elapsed) noexcept {
     late_.tick(now, from_seconds(elapsed));
     elapsed_ = elapsed;
     lateness_fault_ = {};
-    // lateness_ is NaN unless the caller set it; std::max() then returns its first argument
-    const double overdue = std::max(elapsed - settings_.tick(), lateness_);
+    // the lateness is NaN unless the caller set it; std::max() then returns its first argument
+    const double overdue = std::max(elapsed - settings_.tick(), timing_.lateness);
     const double pause = settings_.safety.max_pause;
     const std::optional<double>& most = settings_.safety.max_late;
     // if the clock moved backwards, it is unknown how long the last force was held
@@ -32,7 +32,7 @@ void Servo::retune() noexcept {
     if (real_) next = haptics::softened(next, damping_, late_.sustained(), settings_.tick());
     if (next == in_force_) return;
     in_force_ = next;
-    for (haptics::Finger& finger : fingers_) finger.retune(in_force_);
+    for (Loop& loop : loops_) loop.finger.retune(in_force_);
 }
 
 /// Limits how much the force may rise in a tick that may be late. Lateness that has just begun has
@@ -42,8 +42,8 @@ void Servo::retune() noexcept {
 /// a slow creep that lets the force recover.
 void Servo::bound_rise(size_t finger, double share) noexcept {
     if (!real_ || late_.expected() <= 0 || share <= 0) return;
-    Force& force = forces_[finger];
-    const Move& move = moves_[finger];
+    Force& force = loops_[finger].force;
+    const Move& move = loops_[finger].move;
     const double k = haptics::held_stiffness(damping_, late_.expected());
     const double turn_k = haptics::kTurnHeld * k;
     const Wrench asked = force.felt_0;

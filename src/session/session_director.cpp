@@ -37,7 +37,7 @@ std::string SessionDirector::bounded() const {
 
 std::string SessionDirector::endless_wait(const std::vector<recording::PhaseInfo>& phases) const {
     if (!wait_ || !wait_->over()) return "";
-    const task::TaskDirector::Obstacle in_the_way = task_->obstacle();
+    const task::Placer::Obstacle in_the_way = task_->obstacle();
     if (in_the_way.body < 0) return wait_->describe(phases, "");
     const scene::Scene& scene = plan_.scene;
     const std::string& body = scene.bodies[static_cast<size_t>(in_the_way.body)].name;

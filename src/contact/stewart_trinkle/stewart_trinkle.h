@@ -24,7 +24,7 @@
 #include "contact/newton/newton.h"
 #include "contact/route.h"
 #include "contact/solver_settings.h"
-#include "contact/stewart_trinkle/lemke.h"
+#include "contact/stewart_trinkle/polygon_lcp.h"
 
 namespace dihaptic::contact {
 
@@ -51,32 +51,22 @@ struct StewartTrinkleOutcome : Outcome {
 template <class System>
 struct StewartTrinkleMemory {
     static constexpr int T = System::D - 1;
-    /// The directions of one contact, stored for use in Lemke's matrix.
-    using Directions = Eigen::Matrix<double, T, kMostDirections + 2>;
-
     NewtonMemory<System> newton;
     std::vector<Polygon<T>> polygons;
-    std::vector<Directions> directions;
     std::vector<typename System::Vec> best;
     std::vector<double> aim;    // the first direction given to each polygon
     std::vector<double> image;  // the first direction that the resulting answer requires
     Anderson anderson;
-    std::vector<double> last;  // z from the last proximal step
-    Lemke lemke;
+    PolygonLcpMemory<System> lcp;
 
-    /// The size of Lemke's tableau grows with the square of the number of variables. Memory is
-    /// reserved for twelve variables per contact of `lemke_contacts` (eight directions with
-    /// torsion). Larger problems are solved without Lemke's method.
     void reserve(size_t contacts, size_t lemke_contacts) {
         newton.reserve(contacts);
         polygons.reserve(contacts);
-        directions.reserve(contacts);
         best.reserve(contacts);
         aim.reserve(contacts * T);
         image.reserve(contacts * T);
         anderson.reserve(contacts * T);
-        last.reserve(lemke_contacts * (kMostDirections + 4));
-        lemke.reserve(static_cast<int>(lemke_contacts * 12));
+        lcp.reserve(contacts, lemke_contacts);
     }
 };
 
@@ -267,124 +257,18 @@ class StewartTrinkle {
         accept(r, Route::own_newton, out);
     }
 
-    void fill(double rho, std::span<const double> last) {
-        Lemke& lcp = m_.lemke;
-        const int directions = m_.polygons[0].count();
-        const int block = directions + 2;
-        const auto n = static_cast<int>(system_.size());
-        lcp.start(n * block);
-        for (int j = 0; j < n; ++j) {
-            const auto& D_j = m_.directions[static_cast<size_t>(j)];
-            const int lambda = j * block + block - 1;
-            for (int k = 0; k < n; ++k) {
-                const auto W =
-                    system_.delassus_block(static_cast<size_t>(j), static_cast<size_t>(k));
-                const auto& D_k = m_.directions[static_cast<size_t>(k)];
-                lcp.M(j * block, k * block) = W(0, 0);
-                for (int b = 0; b < directions; ++b) {
-                    const Vec column = W.template rightCols<T>() * D_k.col(b);
-                    lcp.M(j * block, k * block + 1 + b) = column[0];
-                    for (int a = 0; a < directions; ++a) {
-                        lcp.M(j * block + 1 + a, k * block + 1 + b) =
-                            D_j.col(a).dot(column.template tail<T>());
-                    }
-                }
-                for (int a = 0; a < directions; ++a) {
-                    lcp.M(j * block + 1 + a, k * block) =
-                        D_j.col(a).dot(W.col(0).template tail<T>());
-                }
-            }
-            const auto q = system_.q(static_cast<size_t>(j));
-            lcp.q(j * block) = q[0];
-            lcp.M(lambda, j * block) = system_.scale(static_cast<size_t>(j)).mu;
-            for (int a = 0; a < directions; ++a) {
-                lcp.q(j * block + 1 + a) = D_j.col(a).dot(q.template tail<T>());
-                lcp.M(j * block + 1 + a, lambda) = 1;
-                lcp.M(lambda, j * block + 1 + a) = -1;
-            }
-            for (int i = j * block; i < lambda; ++i) {
-                lcp.M(i, i) += rho;
-                lcp.q(i) -= rho * last[static_cast<size_t>(i)];
-            }
-        }
-    }
-
-    /// Sets the start of the proximal steps to z of the best answer so far, or to zero if there is
-    /// none.
-    void begin_proximal(int block, const StewartTrinkleOutcome& out) {
-        m_.last.assign(m_.polygons.size() * static_cast<size_t>(block), 0.0);
-        if (out.route == Route::none) return;
-        for (size_t j = 0; j < m_.polygons.size(); ++j) {
-            const auto in = m_.polygons[j].sector(m_.best[j].template tail<T>());
-            const Shares b = in.inverse * m_.best[j].template tail<T>();
-            const size_t first = j * static_cast<size_t>(block);
-            m_.last[first] = m_.best[j][0];
-            for (int i = 0; i < T; ++i) {
-                const auto at = static_cast<size_t>(in.index[static_cast<size_t>(i)]);
-                m_.last[first + 1 + at] = std::max(0.0, b[i]);
-            }
-        }
-    }
-
-    /// Whether the remaining work suffices to fill in a problem with this many variables; if so,
-    /// spends that work.
-    bool affords_entries(int64_t variables) {
-        constexpr int64_t kOfEach = 4;  // each entry needs a product and is copied into the tableau
-        const int64_t visits = kOfEach * variables * variables / Visits::entries + 1;
-        if (!system_.work().affords(visits)) return false;
-        system_.work().spend(visits);
-        return true;
-    }
-    bool try_last_basis() {
-        const int64_t visits = m_.lemke.basis_entries() / Visits::entries + 1;
-        if (!system_.work().affords(visits)) return false;
-        system_.work().spend(visits);
-        return m_.lemke.try_last_basis();
-    }
-    /// Pivots along one covering vector after another until one succeeds.
-    bool pivot() {
-        constexpr int kAttempts = 4;
-        const int64_t visits = m_.lemke.pivot_entries() / Visits::entries + 1;
-        for (int attempt = 0; attempt < kAttempts; ++attempt) {
-            const int before = m_.lemke.pivots();
-            const bool solved = m_.lemke.solve(attempt, system_.work().times(visits));
-            // a search starts by filling the tableau
-            system_.work().spend(visits * (1 + m_.lemke.pivots() - before));
-            if (solved) return true;
-        }
-        return false;
-    }
-
     /// Solves by Lemke's method, at least down to the residual `enough`.
     void lemke_once(std::span<Vec> r, double enough, StewartTrinkleOutcome& out) {
-        constexpr double kRho = 1e-3;
         constexpr int kMostProximal = 30;
-        if (system_.size() == 0) return;
-        Lemke& lcp = m_.lemke;
-        const int directions = m_.polygons[0].count();
-        const int block = directions + 2;
-        const int variables = static_cast<int>(system_.size()) * block;
-        if (variables > lcp.capacity()) return;
-        m_.directions.resize(system_.size());
-        for (size_t j = 0; j < r.size(); ++j) {
-            for (int k = 0; k < directions; ++k)
-                m_.directions[j].col(k) = m_.polygons[j].direction(k);
-        }
-        begin_proximal(block, out);
+        PolygonLcp<System> lcp(system_, m_.lcp, m_.polygons);
+        if (!lcp.fits()) return;
+        lcp.begin(out.route == Route::none ? std::span<const Vec>() : m_.best);
         for (int step = 0; step < kMostProximal; ++step) {
-            if (!affords_entries(variables)) return;
-            fill(kRho, m_.last);
-            const bool solved = (step > 0 && try_last_basis()) || pivot();
+            if (!lcp.affords()) return;
+            const bool solved = lcp.solve(step > 0);
             out.iterations += lcp.pivots() + 1;
             if (!solved) return;
-            for (size_t j = 0; j < r.size(); ++j) {
-                const int first = static_cast<int>(j) * block;
-                r[j].setZero();
-                r[j][0] = lcp.z(first);
-                for (int k = 0; k < directions; ++k)
-                    r[j].template tail<T>() += lcp.z(first + 1 + k) * m_.directions[j].col(k);
-            }
-            for (int i = 0; i < variables; ++i) m_.last[static_cast<size_t>(i)] = lcp.z(i);
+            lcp.take(r);
             system_.velocity(r, m_.newton.u);
             if (accept(r, Route::lemke, out)) return;
             if (residual(r, m_.newton.u).judged() <= kTarget * std::max(tolerance_, enough)) return;

@@ -75,15 +75,10 @@ class Parts {
         return static_cast<int>(nodes_.size()) - 1;
     }
     int apply(const Operation& operation, int a, int b) { return apply(operation, {a, b, -1}); }
-    /// Appends to `out` the program of a node whose value will be at `depth` above the bottom of
-    /// the stack.
-    void emit(int node, size_t depth, std::vector<Expression::Step>& out) const {
-        const Node& n = nodes_[static_cast<size_t>(node)];
-        if (depth >= Expression::kDeepest || out.size() >= kLongestProgram)
-            throw Fault{1, "is too long", "Split it into several variables."};
-        for (size_t i = 0; i < static_cast<size_t>(n.operation.arguments); ++i)
-            emit(n.arguments[i], depth + i, out);
-        out.push_back({n.operation.function, n.operation.arguments, n.slot, n.value});
+    Expression expression_of(int node) const {
+        Expression out;
+        emit(node, 0, out.program_);
+        return out;
     }
 
     static std::string what(const Value& value) {
@@ -201,6 +196,17 @@ class Parts {
                                                    {Quantity::speed, 10, "mm/s"},
                                                    {Quantity::mass, 20, "g"},
                                                    {Quantity::time, 200, "ms"}}};
+
+    /// Appends to `out` the program of a node whose value will be at `depth` above the bottom of
+    /// the stack.
+    void emit(int node, size_t depth, std::vector<Expression::Step>& out) const {
+        const Node& n = nodes_[static_cast<size_t>(node)];
+        if (depth >= Expression::kDeepest || out.size() >= kLongestProgram)
+            throw Fault{1, "is too long", "Split it into several variables."};
+        for (size_t i = 0; i < static_cast<size_t>(n.operation.arguments); ++i)
+            emit(n.arguments[i], depth + i, out);
+        out.push_back({n.operation.function, n.operation.arguments, n.slot, n.value});
+    }
 
     std::vector<Node> nodes_;
 };
