@@ -47,6 +47,7 @@ class BodySystem {
     /// Whether every number in the problem is finite and usable.
     bool is_finite() const noexcept { return finite_; }
     const Scale& scale(size_t j) const noexcept { return rows_[j].law; }
+    void set_friction(size_t j, double mu) noexcept { rows_[j].law.mu = mu; }
     const Vec& q(size_t j) const noexcept { return rows_[j].q; }
     /// Factor that converts a scaled impulse into an impulse.
     double unit(size_t j) const noexcept { return rows_[j].unit; }

@@ -21,6 +21,7 @@ class DelassusSystem {
 
     size_t size() const noexcept { return scales_.size(); }
     const Scale& scale(size_t j) const noexcept { return scales_[j]; }
+    void set_friction(size_t j, double mu) noexcept { scales_[j].mu = mu; }
     Vec q(size_t j) const noexcept { return q_.segment<3>(3 * static_cast<Eigen::Index>(j)); }
     double unit(size_t j) const noexcept { return units_[j]; }
 

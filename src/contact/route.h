@@ -13,11 +13,12 @@ enum class Route {
     newton,          ///< Newton's method on the Coulomb cone
     own_newton,      ///< stewart_trinkle: Newton's method on the friction polygon
     lemke,           ///< stewart_trinkle: Lemke's method on the friction polygon
-    coarse_polygon,  ///< newton, started from the answer for a polygon with four directions
+    coarse_polygon,  ///< newton, from the answer for a coarse polygon; in older recordings only
     staggered_projections,
-    sweeps,  ///< newton, started from the result of many projected Gauss-Seidel sweeps
+    sweeps,  ///< newton, from the result of many sweeps; in older recordings only
     sequential_impulse,
-    out_of_work  ///< sweeps, after the tick's work budget was used up
+    out_of_work,  ///< sweeps, after the tick's work budget was used up
+    continuation  ///< newton, followed from the answer of a problem with other friction
 };
 constexpr auto enum_names(Route) {
     return std::array{"none",
@@ -29,7 +30,8 @@ constexpr auto enum_names(Route) {
                       "staggered_projections",
                       "sweeps",
                       "sequential_impulse",
-                      "out_of_work"};
+                      "out_of_work",
+                      "continuation"};
 }
 
 }  // namespace dihaptic::contact

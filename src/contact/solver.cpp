@@ -24,23 +24,35 @@ constexpr int kMoreForFew = 15;
 constexpr int64_t kLittleWork = 20'000;  // [visits], about half a millisecond
 constexpr size_t kExactWhenBounded = 2;  // number of methods from hand_over() that count as exact
                                          // when work is bounded
-constexpr int kLastSweeps = 2000;
-constexpr int kConeSweeps = 200;  // sweeps that bring an answer back into the cone
-/// Bounds on fallback methods: on projection pairs times squared contacts, and on sweeps times
+constexpr double kSharp = 1e-2;          // share of the tolerance for which a sharpened answer aims
+/// Bound on staggered projections that another solver hands over to: on pairs times squared
 /// contacts.
 constexpr size_t kMostStaggeredWork = 20'000;
-constexpr size_t kMostSweepWork = 60'000;
+
+/// A path along which friction changes in equal steps from a multiple of its value to its value.
+struct FrictionPath {
+    double from;
+    int steps;
+};
+/// Without friction, a problem is convex. Of problems that newton's starts miss, each path answers
+/// about half, short ones at least cost; all of them together answer four of five (ADR 37).
+constexpr std::array<FrictionPath, 9> kFrictionPaths{
+    {{0, 5}, {0, 20}, {2, 5}, {2, 20}, {0, 50}, {2, 50}, {0, 100}, {4, 50}, {0, 200}}};
 
 template <class System>
 struct SolverMemory {
     StaggeredMemory<System> staggered;  // its Newton part is used by all methods
     StewartTrinkleMemory<System> stewart_trinkle;
     std::vector<typename System::Vec> r;
+    std::vector<typename System::Vec> before;  // impulses before a continuation
+    std::vector<double> friction;              // of each contact
 
     void reserve(size_t contacts, size_t lemke_contacts) {
         staggered.reserve(contacts);
         stewart_trinkle.reserve(contacts, lemke_contacts);
         r.reserve(contacts);
+        before.reserve(contacts);
+        friction.reserve(contacts);
     }
 };
 
@@ -88,7 +100,7 @@ class Solve {
         if (out_of_work_) stats_.route = Route::out_of_work;
         stats_.ended = out_of_work_ || (bounded && stats_.route == Route::sequential_impulse);
         if (!exact) stats_.fallback = !sweeps;
-        const Residual residual = end_inside_cone();
+        const Residual residual = end_inside_cone(exact);
         stats_.residual = residual.given;
         // the answer of Stewart and Trinkle's method solves a problem other than Coulomb's
         const bool own = solver == Solver::stewart_trinkle && !stats_.fallback;
@@ -109,7 +121,6 @@ class Solve {
                  SolveDetail* detail) {
         for (const Route route : routes) {
             if (route == Route::none || outcome_.converged) return;
-            if (route == Route::coarse_polygon && System::D != 3) continue;
             if (exact && !may_step()) break;
             ask(route, first_, settings, detail);
             if (first_ && exact) stats_.fallback = !outcome_.converged;
@@ -145,12 +156,10 @@ class Solve {
         switch (route) {
             case Route::own_newton:
                 return by_stewart_trinkle(settings.polygon, detail);
-            case Route::coarse_polygon:
-                return by_coarse_polygon();
             case Route::staggered_projections:
-                return by_staggered_projections(first, settings.work < kUnbounded);
-            case Route::sweeps:
-                return by_sweeps();
+                return by_staggered_projections(first);
+            case Route::continuation:
+                return by_continuation();
             case Route::sequential_impulse:
                 return by_sweeps_alone(settings);
             default:
@@ -167,15 +176,11 @@ class Solve {
         return answer;
     }
 
-    /// Tries staggered projections. If another solver was requested, the number of projection pairs
-    /// is limited in proportion to 1 / contacts^2, and to a small number if work is bounded.
-    Outcome by_staggered_projections(bool asked, bool bounded) {
-        const size_t affordable = kMostStaggeredWork / (contacts_ * contacts_);
-        const size_t pairs = asked     ? kMostStaggeredIterations
-                             : bounded ? std::min(kFewPairs, affordable)
-                                       : affordable;
+    /// Tries staggered projections, with few pairs if another solver was requested.
+    Outcome by_staggered_projections(bool asked) {
+        const size_t few = std::min(kFewPairs, kMostStaggeredWork / (contacts_ * contacts_));
         return staggered_projections(system_, r_, kTolerance,
-                                     std::min(static_cast<int>(pairs), kMostStaggeredIterations),
+                                     asked ? kMostStaggeredIterations : static_cast<int>(few),
                                      memory_.staggered);
     }
 
@@ -197,51 +202,84 @@ class Solve {
                       std::min(most_work, kMostNewtonWork));
     }
 
-    /// If no start leads to an answer on the cone, uses a coarse polygon that turns with the
-    /// sliding direction to find a start near one.
-    Outcome by_coarse_polygon() {
-        constexpr PolygonSettings kCoarse{4, DirectionFrame::sliding};
-        StewartTrinkle<System> method(system_, kCoarse, kTolerance, memory_.stewart_trinkle);
-        const int steps = method.solve_by_newton(r_).iterations;
-        Outcome near = by_newton(std::span(kNewtonStarts).first(1));
-        near.iterations += steps;
-        return near;
+    /// Follows the answer of an easier problem as friction changes to its value: without friction,
+    /// the problem is convex. Tries one path after another.
+    Outcome by_continuation() {
+        std::vector<Vec>& before = memory_.before;
+        before.assign(r_.begin(), r_.end());
+        memory_.friction.clear();
+        for (size_t j = 0; j < r_.size(); ++j) memory_.friction.push_back(system_.scale(j).mu);
+        Outcome out;
+        for (const FrictionPath& path : kFrictionPaths) {
+            if (!may_step() || follow(path, out)) break;
+        }
+        scale_friction(1);
+        if (!out.converged) std::copy(before.begin(), before.end(), r_.begin());
+        return out;
     }
 
-    Outcome by_sweeps() {
-        const int sweeps = std::min(kLastSweeps, static_cast<int>(kMostSweepWork / contacts_));
-        system_.sweep(law::Coulomb{}, r_, sweeps);
-        Outcome last = by_newton();
-        last.iterations += sweeps;
-        return last;
+    /// Returns whether the path led to an answer.
+    bool follow(const FrictionPath& path, Outcome& out) {
+        constexpr std::array kStarts{kNewtonStarts[0], kNewtonStarts[2]};
+        for (Vec& impulse : r_) impulse.setZero();
+        for (int step = 0; step <= path.steps; ++step) {
+            scale_friction(path.from + (1 - path.from) * step / path.steps);
+            const Outcome at = by_newton(kStarts);
+            out.iterations += at.iterations;
+            if (!at.converged) return false;
+            out.residual = at.residual;
+        }
+        return out.converged = true;
+    }
+
+    void scale_friction(double share) {
+        for (size_t j = 0; j < r_.size(); ++j) system_.set_friction(j, share * memory_.friction[j]);
     }
 
     /// Projects the impulses into the cone, so that a remaining error never pulls bodies together.
-    /// Some problems are so delicate that even this small change is too much. Answers of staggered
-    /// projections are then led into the cone by sweeps, which also update the velocities; Newton's
-    /// answers are left as they are, since they are orders of magnitude more exact than a few
-    /// sweeps would leave them.
-    Residual end_inside_cone() {
+    /// Some problems are so delicate that even this small change is too much. Their answers are
+    /// sharpened first: a few more steps of Newton's method leave nearly nothing to project. An
+    /// answer that is still outside is left as it is.
+    /// `exact`: whether Newton's matrix has been prepared.
+    Residual end_inside_cone(bool exact) {
+        // sweeps end inside the cone, except for rounding
+        if (stats_.route == Route::sequential_impulse || stats_.route == Route::out_of_work) {
+            project();
+            return cone_residual();
+        }
+        Residual unprojected;
+        const Residual projected = project_or_restore(unprojected);
+        if (projected.judged() <= kTolerance) return projected;
+        if (unprojected.judged() > kTolerance) {
+            project();
+            return cone_residual();
+        }
+        if (!exact) return unprojected;
+        sharpen();
+        const Residual sharp = project_or_restore(unprojected);
+        return sharp.judged() <= kTolerance ? sharp : unprojected;
+    }
+
+    /// Projects the impulses and returns their residual. If that misses the tolerance, restores the
+    /// impulses as they were, whose residual is then stored in `unprojected`.
+    Residual project_or_restore(Residual& unprojected) {
         std::copy(r_.begin(), r_.end(), newton_memory_.best.begin());
         project();
         const Residual projected = cone_residual();
         if (projected.judged() <= kTolerance) return projected;
-        // sweeps end inside the cone, except for rounding
-        if (stats_.route == Route::sequential_impulse || stats_.route == Route::out_of_work)
-            return projected;
-        const auto swap = [&] {
-            std::swap_ranges(r_.begin(), r_.end(), newton_memory_.best.begin());
-            return cone_residual();
-        };
-        const Residual unprojected = swap();
-        if (unprojected.judged() > kTolerance) return swap();
-        if (stats_.route != Route::staggered_projections) return unprojected;
-        std::copy(r_.begin(), r_.end(), newton_memory_.best.begin());
-        for (int sweep = 0; sweep < kConeSweeps && may_step(); ++sweep) {
-            system_.sweep(law::Coulomb{}, r_, 1);
-            if (const Residual swept = cone_residual(); swept.judged() <= kTolerance) return swept;
-        }
-        return swap();
+        std::copy(newton_memory_.best.begin(), newton_memory_.best.end(), r_.begin());
+        unprojected = cone_residual();
+        return projected;
+    }
+
+    /// Takes further steps of Newton's method, far below the tolerance. Loads that the equations
+    /// leave undetermined keep their shares, since rho is large at first and falls slowly.
+    void sharpen() {
+        using From = NewtonStart::From;
+        constexpr std::array<NewtonStart, 2> kStarts{{{From::given, 1e-2, 40, 6, 12, false, 0, 0},
+                                                      {From::best, 1e-3, 40, 6, 12, true, 0, 0}}};
+        stats_.iterations +=
+            newton(system_, r_, kSharp * kTolerance, newton_memory_, kStarts).iterations;
     }
 
     void project() {

@@ -108,17 +108,6 @@ class StewartTrinkle {
         return out;
     }
 
-    /// Uses only Newton's method, with each polygon aligned with the start's friction and kept
-    /// there.
-    StewartTrinkleOutcome solve_by_newton(std::span<Vec> r) {
-        StewartTrinkleOutcome out;
-        system_.velocity(r, m_.newton.u);
-        turn(r);
-        settings_.frame = DirectionFrame::fixed;
-        newton_once(r, 0, out);
-        return out;
-    }
-
     /// Uses only Lemke's method, starting from zero impulses.
     StewartTrinkleOutcome solve_by_lemke(std::span<Vec> r) {
         StewartTrinkleOutcome out;

@@ -24,10 +24,10 @@ inline BenchSetup by_maker(BenchSetup setup, const std::string& backend) {
     return setup;
 }
 
-/// Expects that two values agree to 1 % or to within `nothing`, which should be a thousandth of
-/// what can be seen or felt.
-inline void expect_alike(double a, double b, double nothing) {
-    EXPECT_NEAR(a, b, std::max(0.01 * std::abs(a), nothing));
+/// Expects that two values agree to a share of them, 1 % if omitted, or to within `nothing`, which
+/// should be a thousandth of what can be seen or felt.
+inline void expect_alike(double a, double b, double nothing, double share = 0.01) {
+    EXPECT_NEAR(a, b, std::max(share * std::abs(a), nothing));
 }
 
 }  // namespace dihaptic::measure
