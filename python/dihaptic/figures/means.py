@@ -57,3 +57,17 @@ def means_with_intervals(each: pd.DataFrame, by: list[str], **options: Any) -> p
     mean = each.groupby(by, **options)["value"].agg(value="mean", n="count", sd="std").reset_index()
     half = special.stdtrit(mean["n"].clip(lower=2) - 1, 0.975) * mean["sd"] / np.sqrt(mean["n"])
     return mean.assign(of="mean", low=mean["value"] - half, high=mean["value"] + half).drop(columns="sd")
+
+
+def wilson(yes: Any, n: Any) -> tuple[Any, Any]:
+    """Wilson's 95 % interval of a share: `yes` out of `n` (numbers, or arrays of one shape; n > 0).
+
+    >>> low, high = wilson(8, 10)
+    >>> float(round(low, 3)), float(round(high, 3))
+    (0.49, 0.943)
+    """
+    z = special.ndtri(0.975)
+    share = yes / n
+    middle = (share + z**2 / (2 * n)) / (1 + z**2 / n)
+    half = z / (1 + z**2 / n) * np.sqrt(share * (1 - share) / n + z**2 / (4 * n**2))
+    return middle - half, middle + half
