@@ -19,6 +19,7 @@ from drawn import Drawn, rehearsed  # noqa: E402
 import dihaptic as dh  # noqa: E402
 from dihaptic import figures  # noqa: E402
 from dihaptic.figures import paths  # noqa: E402
+from dihaptic.figures.paths.reaches import reaches_of  # noqa: E402
 
 TICK = 0.001
 #: Fewer reaches of curl-field, with as many panels.
@@ -124,7 +125,7 @@ class Paths(Drawn):
     def test_onsets_are_those_of_the_program(self):
         data = figures.read(self.tone)
         trials = data.table("trials").drop_duplicates(["person", "trial_num"], keep="last")
-        found = {(reach.person, reach.trial_num): len(reach.speed) > 0 for reach in paths._reaches(data)}
+        found = {(reach.person, reach.trial_num): len(reach.speed) > 0 for reach in reaches_of(data)}
         for row in trials[trials.outcome != "interrupted"].itertuples():
             self.assertEqual(found[row.person, row.trial_num], not np.isnan(row.reaction_time_s), row.trial_num)
 
