@@ -35,6 +35,17 @@ std::string SessionDirector::bounded() const {
         formula.text);
 }
 
+std::string SessionDirector::missed_placements() const {
+    if (!task_ || task_->missed_placements().count == 0) return "";
+    const task::Placer::Missed& missed = task_->missed_placements();
+    const std::string& state = plan_.task->task.states[static_cast<size_t>(missed.state)].name;
+    return fmt::format(
+        "{} in a state did not take place, since a finger pressed the body or was in the way until "
+        "the state ended; the last one was of {} in the state '{}' of trial {}",
+        counted(missed.count, "placement"),
+        plan_.scene.bodies[static_cast<size_t>(missed.body)].name, state, missed.trial);
+}
+
 std::string SessionDirector::endless_wait(const std::vector<recording::PhaseInfo>& phases) const {
     if (!wait_ || !wait_->over()) return "";
     const task::Placer::Obstacle in_the_way = task_->obstacle();

@@ -39,6 +39,8 @@ class SessionDirector {
     bool trials_left() const noexcept { return share().value_or(1) < 1; }
     /// Number of trials that were left out because a transition ended the session.
     size_t left_out() const noexcept { return task_ ? task_->left_out() : 0; }
+    /// Describes placements that did not take place; "" if all did.
+    std::string missed_placements() const;
     /// Describes the wait that ended the session because it took too long; "" if there was none.
     std::string endless_wait(const std::vector<recording::PhaseInfo>& phases) const;
 

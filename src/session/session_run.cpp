@@ -541,6 +541,8 @@ void Run::conclude() {
                                           counted(static_cast<int64_t>(left_out), "trial"),
                                           left_out == 1 ? "was" : "were"));
     }
+    if (std::string missed = director_->missed_placements(); !missed.empty())
+        info_.notes.push_back(std::move(missed));
     folder_.write_info(info_);
     // a fault also ends a session; `dihaptic resume` does the remaining trials
     const bool cut_short = servo_->fault() && director_->trials_left();

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "base/text_file.h"
+#include "task/plan/measures.h"
 
 namespace dihaptic::session {
 namespace {
@@ -174,6 +175,13 @@ bool is_used(std::string_view text, const std::string& factor) {
     return false;
 }
 
+/// Whether a level of the factor is also the name of a condition, which says what it changes.
+bool names_conditions(const task::Task& task, const task::Factor& factor) {
+    return std::ranges::any_of(task.conditions, [&](const task::Condition& condition) {
+        return std::ranges::count(factor.levels, condition.name) > 0;
+    });
+}
+
 /// Warns of factors whose only mention in the file is their own. Perturbations that no block names
 /// are often kept for later.
 void check_uses(const task::Task& task, Diagnostics& diagnostics) {
@@ -190,11 +198,30 @@ void check_uses(const task::Task& task, Diagnostics& diagnostics) {
                                 "Give it several levels, or leave it out.");
             continue;
         }
-        if (is_used(text, factor.factor)) continue;
+        if (is_used(text, factor.factor) || names_conditions(task, factor)) continue;
         diagnostics.warning(factor.place, factor.factor,
                             "is a factor that nothing in this file uses: trials of its levels are "
                             "all the same",
                             "Name it in a formula, a text or a condition.");
+    }
+}
+
+/// Warns of a learned field whose direction is reversed in some trials: each trial is related to
+/// its own field, so that learning of one shows as learning of the other.
+void check_ideal(const Plan& plan, Diagnostics& diagnostics) {
+    const task::Task& task = plan.task->task;
+    if (std::ranges::count(task.measures, "adaptation_index") == 0 || !task.movement) return;
+    Mat3 first = Mat3::Zero();
+    for (const task::MovementPlan& movement : task::movements_of(*plan.task, plan.scene)) {
+        if (first.isZero(0)) first = movement.ideal;
+        if (first.cwiseProduct(movement.ideal).sum() >= 0) continue;
+        diagnostics.warning(
+            task.movement->place, "ideal",
+            "is a field whose direction differs between trials: adaptation_index, field_share and "
+            "fits relate each trial to its own field, as if all fields were one",
+            "To relate all trials to one field, name a perturbation with a fixed direction; no "
+            "block has to use it.");
+        return;
     }
 }
 
@@ -208,6 +235,7 @@ void check_task(const Plan& plan, Diagnostics& diagnostics) {
     check_delays(task, diagnostics);
     check_places(*plan.task, diagnostics);
     check_uses(task, diagnostics);
+    check_ideal(plan, diagnostics);
 }
 
 }  // namespace dihaptic::session

@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 import yaml
 
@@ -184,7 +185,10 @@ class Data:
         if name in ("adaptation", "fits"):
             fits = [each.table("fits") if "fits" in each.session.tables else pd.DataFrame() for each in sittings]
             parts = [_with_shares(part) if is_of_index(own) else part for part, own in zip(parts, fits)]
-        return _joined(parts)
+        out = _joined(parts)
+        if name == "trials":
+            _count_angles_on(out)
+        return out
 
     @property
     def people(self) -> list[str]:
@@ -353,6 +357,32 @@ def _with_shares(table: pd.DataFrame) -> pd.DataFrame:
     table.loc[is_percent, names] /= 100
     table.loc[is_percent, "unit"] = "1"
     return table
+
+
+def _count_angles_on(trials: pd.DataFrame) -> None:
+    """Counts angles beyond 180 degrees where they lie on both sides of it, so that means of neighbours lie between them.
+
+    Does so only where there is a wide gap elsewhere, in which no angle lies.
+    """
+    wide = 90.0
+    units, meanings = trials.attrs.get("units", {}), trials.attrs.get("meanings", {})
+    for column in (name for name, unit in units.items() if unit == "deg" and name in trials):
+        if not pd.api.types.is_numeric_dtype(trials[column]):
+            continue
+        angles = np.sort(trials[column].dropna().unique())
+        if len(angles) < 2 or angles[0] < -180 or angles[-1] > 180 or angles[0] + 360 - angles[-1] >= wide:
+            continue
+        gaps = np.diff(angles)
+        place = int(np.argmax(gaps))
+        if gaps[place] < wide:
+            continue
+        cut = angles[place] + gaps[place] / 2
+        below, above = trials[column] < cut, trials[column] > cut
+        moved, by = (below, 360) if below.sum() <= above.sum() else (above, -360)
+        trials[column] = trials[column].astype(float) + by * moved
+        trials.attrs["meanings"] = meanings = {
+            **meanings, column: f"{meanings.get(column, '')}; counted beyond {by // 2} degrees, since angles lie on both sides of it".lstrip("; ")
+        }  # fmt: skip
 
 
 def _frozen(file: Path) -> dict[str, Any]:

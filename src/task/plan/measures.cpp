@@ -81,6 +81,7 @@ class MeasureChecker {
         if (needs & MeasureRow::ideal) check_ideal();
         if (needs & MeasureRow::grip) check_grip();
         if (!movement_.error.empty()) check_error();
+        if (std::ranges::count(task_.measures, "reaction_time") > 0) check_pushes();
         if (task_.corrections) check_corrections(*task_.corrections);
         if ((needs & MeasureRow::step) && movement_.step.empty())
             error("step", "is missing, but grip_latency starts at a load step",
@@ -184,6 +185,37 @@ class MeasureChecker {
                   "Name a perturbation with a curl or viscous field on the finger or body that is "
                   "measured.");
         }
+    }
+
+    /// Warns of constant forces that begin to push the hand at the go signal.
+    void check_pushes() {
+        const std::string& go = movement_.go.empty() && !movement_.during.empty()
+                                    ? movement_.during.front()
+                                    : movement_.go;
+        for (const PerturbationSpec& spec : task_.perturbations) {
+            if (!begins_in(spec, go) || (spec.profile && spec.profile->delay > 0)) continue;
+            for (const LoadSpec& load : spec.all_loads()) {
+                if (load.kind != LoadKind::constant || !acts_on(load, movement_)) continue;
+                diagnostics_.warning(
+                    load.place, "on",
+                    fmt::format("pushes the hand from the moment at which '{}' begins: "
+                                "reaction_time may be that of the push, not of the person",
+                                go),
+                    "Compare it only among trials with the same push, or let the push begin in "
+                    "another state.");
+            }
+        }
+    }
+    /// Whether a perturbation acts in this state, and in no state from which this one is entered.
+    bool begins_in(const PerturbationSpec& spec, const std::string& state) const {
+        const auto acts_in = [&](const std::string& name) {
+            return std::ranges::count(spec.during, name) > 0;
+        };
+        return acts_in(state) && std::ranges::none_of(task_.states, [&](const State& other) {
+                   const bool leads = std::ranges::any_of(
+                       other.exits, [&](const Exit& exit) { return exit.to == state; });
+                   return leads && other.name != state && acts_in(other.name);
+               });
     }
 
     void check_grip() {

@@ -112,6 +112,13 @@ void Placer::enter() noexcept {
     driving_ = false;
 }
 
+void Placer::leave(const TaskPlan::PlannedState& planned, int state, int trial) noexcept {
+    for (size_t i = 0; i < planned.placements.size(); ++i) {
+        if (is_put_[i] == 0)
+            missed_ = {missed_.count + 1, trial, state, planned.placements[i].pose.body};
+    }
+}
+
 void Placer::order(const TaskPlan::PlannedState& state, const frame::Frame& last, double t,
                    const TrialNumbers& numbers, Motions& motions,
                    frame::Commands& commands) noexcept {

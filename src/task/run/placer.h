@@ -22,6 +22,16 @@ class Placer {
     };
     Obstacle obstacle() const noexcept { return obstacle_; }
 
+    /// Placements that did not take place, since a finger was in the way until their state ended.
+    struct Missed {
+        int count = 0;
+        // the last of them
+        int trial = 0;  ///< number of the trial, counted from 1
+        int state = -1;
+        int body = -1;
+    };
+    const Missed& missed() const noexcept { return missed_; }
+
     /// Whether all bodies of the trial can be returned to their start poses.
     bool is_clear(const frame::Frame& last, const TaskPlan::Cell& cell) noexcept;
     /// Returns the trial's bodies to their start poses, except those that are there.
@@ -29,6 +39,8 @@ class Placer {
                frame::Commands& commands) noexcept;
     /// To be called when a state is entered.
     void enter() noexcept;
+    /// To be called when a state is left. `trial`: number of the trial, counted from 1.
+    void leave(const TaskPlan::PlannedState& planned, int state, int trial) noexcept;
     /// Commands the placements, drives and motors of a state. `t`: time in the state at the end of
     /// the tick [s].
     void order(const TaskPlan::PlannedState& state, const frame::Frame& last, double t,
@@ -52,6 +64,7 @@ class Placer {
     std::vector<double> motor_from_;
     bool driving_ = false;  // whether drive_from_ and motor_from_ are valid for this state
     Obstacle obstacle_;
+    Missed missed_;
 };
 
 }  // namespace dihaptic::task

@@ -151,6 +151,7 @@ bool TaskDirector::follow(const Decision& decision, double now) noexcept {
 }
 
 void TaskDirector::enter(int state, double now, frame::Commands& commands) noexcept {
+    if (state_ >= 0) placer_.leave(planned(), state_, queue_.trial() + 1);
     if (state_ < 0) trial_began_ = now;
     numbers_.follow(queue_.trial() + 1, queue_.attempt(), variables_, state);
     const TaskPlan::Cell& cell = numbers_.cell();
@@ -220,6 +221,7 @@ bool TaskDirector::holds(const TaskPlan::Transition& transition, const frame::Fr
 
 void TaskDirector::finish(int outcome, bool redo, double now, frame::Commands& commands) noexcept {
     last_trial_ = queue_.trial() + 1;
+    if (state_ >= 0) placer_.leave(planned(), state_, last_trial_);
     last_attempt_ = queue_.attempt();
     commands.trial = last_trial_;
     // a trial that is skipped before it starts has a single frame, in its first state

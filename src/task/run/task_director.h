@@ -57,6 +57,7 @@ class TaskDirector {
     const TrialNumbers& numbers() const noexcept { return numbers_; }
     /// What keeps a body from being placed at its start pose. Must be called between ticks.
     Placer::Obstacle obstacle() const noexcept { return placer_.obstacle(); }
+    const Placer::Missed& missed_placements() const noexcept { return placer_.missed(); }
     /// Number of trials that were left out because an exit ended the session.
     size_t left_out() const noexcept { return queue_.left_out(); }
     /// Share of trials that have been completed. May be called from any thread.

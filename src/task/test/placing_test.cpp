@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "base/text_file.h"
 #include "recording/raw_log.h"
 #include "session/replay.h"
 #include "session/test/reaches.h"
@@ -54,6 +55,20 @@ TEST(Placing, HoldsABodyAndLetsItGo) {
         EXPECT_NEAR(z, 0.3 - kGravity * t * t / 2, frame.phase == 1 ? 1.1e-5 : 2e-3) << t;
     }
     EXPECT_NEAR(t, 0.1, 2e-3);
+}
+
+TEST(Placing, IsMissedWhereAFingerIsInTheWay) {
+    session::Files files;
+    files.experiment = "scene: scene.yaml\nhand: { centre_mm: [0, 0, 220] }\ntask:\n  states:\n" +
+                       state("hold", "to: drop",
+                             ", place: [{ body: block, position_mm: [0, 0, 220], held: yes }], "
+                             "simulated_hand: [{ duration_s: 0.1 }]") +
+                       state("drop", "outcome: done", "") +
+                       "  blocks: [{ name: all, repeats: 2 }]\n";
+    const session::RunResult result = files.run(session::make_plan(files.request()));
+    const std::string info = read_text_file(result.folder + "/session.yaml");
+    EXPECT_NE(info.find("2 placements in a state did not take place"), std::string::npos) << info;
+    EXPECT_NE(info.find("block in the state 'hold' of trial 2"), std::string::npos) << info;
 }
 
 TEST(Placing, RemovesAndExchangesBodies) {

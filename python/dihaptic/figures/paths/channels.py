@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -17,13 +18,18 @@ from .sheets import FEW, fewest, of_each
 
 
 def channel_stages(data: Data) -> dict[str, list[Reach]]:
-    """Reaches in channels by block; in perturbed blocks, at most eight in the first third and at most eight in the last."""
+    """Reaches in channels by block; in perturbed blocks, at most eight in the first third and at most eight in the last.
+
+    Reaches whose ideal forces point to opposite sides are kept apart.
+    """
     kinds = {str(block.get("name")): str(block.get("kind", "")) for block in data.task.get("blocks") or []}
     with_force = [reach for reach in reaches_of(data) if reach.force is not None]
     several = len({(reach.group, reach.round) for reach in with_force}) > 1
+    opposed = len({_side(reach) for reach in with_force} - {""}) > 1
     blocks: dict[str, list[Reach]] = {}
     for reach in sorted(with_force, key=lambda reach: reach.trial_num):
         part = [reach.group, reach.round, reach.block] if several else [reach.block]
+        part += [_side(reach)] if opposed else []
         blocks.setdefault(", ".join(word for word in part if word), []).append(reach)
     out = {}
     for name, own in blocks.items():
@@ -35,6 +41,14 @@ def channel_stages(data: Data) -> dict[str, list[Reach]]:
         else:
             out[name] = own
     return out
+
+
+def _side(reach: Reach) -> str:
+    """The side to which the ideal force of a reach points on average; empty if there is none."""
+    ideal = reach.ideal
+    if ideal is None or not np.isfinite(ideal).any() or (mean := float(np.nanmean(ideal))) == 0:
+        return ""
+    return "ideal to the left" if mean > 0 else "ideal to the right"
 
 
 @of_data

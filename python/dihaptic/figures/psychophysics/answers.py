@@ -244,11 +244,20 @@ def _two_outcomes(data: Data, trials: pd.DataFrame) -> list[str]:
     """The two frequent outcomes, if there are exactly two: first the comparison, or else the one that the task names first."""
     shares = trials["outcome"].value_counts(normalize=True)
     frequent = [str(name) for name in shares.index if shares[name] >= _FREQUENT]
-    if len(frequent) != 2:
+    if len(frequent) != 2 or _is_failure(data.task, frequent):
         return []
     order = list(dict.fromkeys(str(exit["outcome"]) for exit in _exits(data.task)))
     places = {name: place for place, name in enumerate(order)}
     return sorted(frequent, key=lambda name: (not name.startswith("comparison"), places.get(name, len(order))))
+
+
+def _is_failure(task: dict[str, Any], outcomes: list[str]) -> bool:
+    """Whether one of two outcomes means only that time ran out, where nobody was asked for an answer."""
+    ways: dict[str, set[str]] = {name: set() for name in outcomes}
+    for exit in _exits(task):
+        ways.get(str(exit["outcome"]), set()).add(str(exit["when"]))
+    asked = any(way & {"key", "button", "answered"} for way in ways.values())
+    return not asked and any(way == {"time"} for way in ways.values())
 
 
 def _side_column(trials: pd.DataFrame, outcomes: list[str]) -> str:
