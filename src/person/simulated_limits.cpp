@@ -87,9 +87,27 @@ void warn_of_shifts(const task::TaskPlan& plan, std::vector<Problem>& out) {
     };
     for (const task::PerturbationSpec* perturbation : perturbations_with(plan, shifts)) {
         out.push_back({Severity::warning, perturbation->place, perturbation->name,
-                       "shifts what is shown: simulated people correct a shift that appears during "
-                       "a reach about as much as people do, but learn nothing from it, so that any "
-                       "change over trials is arbitrary",
+                       "shifts what is shown: simulated people correct a shift about as much as "
+                       "people do if they see the hand all the way; if it is shown only later in "
+                       "the reach, they correct too much, and take the shift for a turn, so that "
+                       "changes over trials are arbitrary",
+                       kRemedy});
+    }
+}
+
+void warn_of_steps(const task::TaskPlan& plan, std::vector<Problem>& out) {
+    const auto bodies = static_cast<int>(plan.bodies);
+    const auto steps = [&](const task::PerturbationSpec& perturbation) {
+        return std::ranges::any_of(perturbation.all_loads(), [&](const task::LoadSpec& load) {
+            return load.kind == task::LoadKind::constant &&
+                   std::ranges::any_of(load.on.indices, [&](int thing) { return thing >= bodies; });
+        });
+    };
+    for (const task::PerturbationSpec* perturbation : perturbations_with(plan, steps)) {
+        out.push_back({Severity::warning, perturbation->place, perturbation->name,
+                       "pushes the hand with a constant force: simulated people yield to it like a "
+                       "spring, without reflexes that depend on their goal, so that responses to "
+                       "it are arbitrary",
                        kRemedy});
     }
 }
@@ -199,6 +217,7 @@ std::vector<Problem> simulated_limits(const task::TaskPlan& plan) {
     warn_of_fields(plan, out);
     warn_of_delays(plan, out);
     warn_of_shifts(plan, out);
+    warn_of_steps(plan, out);
     warn_of_links(plan, out);
     warn_of_thresholds(plan, out);
     warn_of_answers(plan, out);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Any
 
 #: Columns whose names are too terse for a reader.
@@ -49,8 +50,9 @@ def label(column: str, unit: str = "") -> str:
 
 
 def in_print(unit: str) -> str:
-    """A unit as a journal prints it."""
-    return unit.replace("deg", "°").replace("um", "µm").replace("^2", "²").replace("^3", "³").replace("*", "\u00a0")
+    """A unit as a journal prints it; the signs of a formula stay."""
+    printed = unit.replace("deg", "°").replace("um", "µm").replace("^2", "²").replace("^3", "³")
+    return re.sub(r"(?<=[A-Za-z])\*(?=[A-Za-z])", "\u00a0", printed)
 
 
 def level(value: Any, unit: str = "") -> str:
