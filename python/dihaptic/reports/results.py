@@ -203,6 +203,8 @@ def _sentence(data: Data, measure: str, by: list[str], table: str) -> str:
         name = label(measure, data.measure(measure, table).unit)
     means = means_of(data, measure, by, table)
     means = means[means["mean"].notna()]
+    if means.empty:
+        return f"{capital(name)} was measured in no trial that counts; the column not_measured of trials.csv says why."
     texts = []
     shown = means if len(means) <= _MOST_MEANS else means.loc[[means["mean"].idxmin(), means["mean"].idxmax()]]
     for row, words in zip(shown.to_dict("records"), with_spreads(shown["mean"], shown["sd"])):
