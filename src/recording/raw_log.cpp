@@ -70,7 +70,8 @@ RawLogWriter::RawLogWriter(const std::string& file, const LogHead& head) : file_
     descriptor_ = Descriptor(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
     if (!descriptor_) {
         throw Error({file, 0}, "", fmt::format("cannot be created: {}", std::strerror(errno)),
-                    "Choose another folder with --out.");
+                    "Choose another folder, with --out or under File > Where sessions go in the "
+                    "window.");
     }
     Node text = write_fields(head);
     text.set("schema", Node::of(schema()));

@@ -26,6 +26,9 @@ namespace {
 /// Last line of session.yaml (the end-of-document mark of YAML); a file without this line is
 /// incomplete.
 constexpr const char* kEnd = "...\n";
+/// The remedy for a folder in which no session can be recorded.
+constexpr const char* kOtherFolder =
+    "Choose another folder, with --out or under File > Where sessions go in the window.";
 
 /// Returns the text of the file, or "" if it cannot be read.
 std::string text_of(const std::string& file) {
@@ -161,10 +164,9 @@ SessionFolder SessionFolder::create(const std::string& parent, const std::string
         }
     } catch (const fs::filesystem_error& e) {
         throw Error({parent, 0}, "", "no session folder can be created here: " + e.code().message(),
-                    "Choose another folder with --out.");
+                    kOtherFolder);
     }
-    throw Error({parent, 0}, "", "too many sessions in this second",
-                "Choose another folder with --out.");
+    throw Error({parent, 0}, "", "too many sessions in this second", kOtherFolder);
 }
 
 SessionInfo SessionFolder::read_info() const {

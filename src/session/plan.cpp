@@ -153,9 +153,10 @@ void check_use_of_movement(const Plan& plan, const Request& request,
     }
     const Place& place = experiment.movement->place;
     if (rig::is_real(plan.rig)) {
-        diagnostics.error(place, "movement",
-                          "moves simulated fingers, but this rig's devices are real",
-                          "Choose another rig: --rig rigs/premium-pair.yaml.");
+        diagnostics.error(
+            place, "movement", "moves simulated fingers, but this rig's devices are real",
+            "Choose another rig, such as rigs/premium-pair.yaml, with --rig or under Rig in "
+            "the window.");
     }
     if (experiment.task) {
         diagnostics.error(place, "movement",
