@@ -320,6 +320,7 @@ void Composer::note(const QString& text) {
 }
 
 bool Composer::refuse(const QString& why) {
+    refusal_ = why;
     state_->setText(why);
     Q_EMIT told(why);
     return false;

@@ -53,6 +53,8 @@ class Composer : public QWidget {
     /// Writes the file. Asks before overwriting later changes by another program. If the file is
     /// not written, shows a message and returns false.
     bool save();
+    /// The message with which the last save() or save_as() refused to write.
+    const QString& refusal() const { return refusal_; }
     /// Writes the text to another file and leaves the open file unchanged. If writing fails, shows
     /// a message and returns false.
     bool save_as(const QString& file);
@@ -116,6 +118,7 @@ class Composer : public QWidget {
     bool has_draft_ = false;       // whether this window holds the draft
     bool leaves_ = false;          // whether the draft is kept when this panel is destroyed
     QPointer<QMessageBox> offer_;  // offer of a draft that the user has not answered yet
+    QString refusal_;              // why the text was last not written
     QString note_;                 // note about the state of the file
     QString notes_;                // all notes that are shown
     QString problems_;             // shown problems of the text

@@ -10,7 +10,7 @@ namespace dihaptic::gui {
 
 namespace shapes {
 extern const std::string_view kBack, kFault, kForward, kHalted, kInformation, kLook, kNext, kNote,
-    kPause, kPlay, kPrepare, kPrevious, kQuestion, kReady, kSkip, kStop, kTune, kWaiting;
+    kPause, kPlay, kPrepare, kPrevious, kQuestion, kReady, kSkip, kStop, kTune, kWaiting, kWarning;
 }  // namespace shapes
 
 /// An icon for a button, which follows the theme, and is paler while the button is disabled.

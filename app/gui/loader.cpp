@@ -38,7 +38,8 @@ void make_plan(Opened& out, const Wanted& wanted) {
     out.plan = std::move(rest.plan);
 }
 
-Opened open(const Wanted& wanted, std::unique_ptr<devices::DeviceGroup>& devices) {
+/// `readable` becomes true when all files have been read without errors.
+Opened open(const Wanted& wanted, std::unique_ptr<devices::DeviceGroup>& devices, bool& readable) {
     Opened out;
     make_plan(out, wanted);
     const std::vector<std::string> fingers = scene::finger_names(out.plan.scene);
@@ -50,6 +51,7 @@ Opened open(const Wanted& wanted, std::unique_ptr<devices::DeviceGroup>& devices
     const auto resting = session::make_servo(still);
     resting->activate();
     out.frame = resting->tick(Time(0), {});
+    readable = true;
     if (wanted.to_run) {
         devices =
             session::open_devices(out.plan, rig::is_real(out.plan.rig) ? host::program() : "",
@@ -101,11 +103,12 @@ void Loader::load(const Wanted& wanted) {
 void Loader::run(const Wanted& wanted) {
     std::optional<Opened> result;
     QStringList problems;
+    bool readable = false;
     devices_.reset();  // devices opened for a session that did not start
     std::optional<Unsaved> unsaved;
     if (wanted.text) unsaved.emplace(wanted.request.file, *wanted.text);
     try {
-        result = open(wanted, devices_);
+        result = open(wanted, devices_, readable);
     } catch (const Error& e) {
         for (const Problem& problem : e.problems())
             problems += QString::fromStdString(problem.text());
@@ -113,17 +116,18 @@ void Loader::run(const Wanted& wanted) {
         problems += QString::fromStdString(e.what());
     }
     QMetaObject::invokeMethod(
-        this, [this, result, problems] { done(result, problems); }, Qt::QueuedConnection);
+        this, [this, result, problems, readable] { done(result, problems, !readable); },
+        Qt::QueuedConnection);
 }
 
-void Loader::done(const std::optional<Opened>& result, const QStringList& problems) {
+void Loader::done(const std::optional<Opened>& result, const QStringList& problems, bool of_file) {
     thread_.join();
     if (next_) {
         load(*std::exchange(next_, std::nullopt));
     } else if (result) {
         Q_EMIT opened(*result);
     } else {
-        Q_EMIT refused(problems);
+        Q_EMIT refused(problems, of_file);
     }
 }
 

@@ -58,14 +58,15 @@ class Loader : public QObject {
 
   Q_SIGNALS:
     void opened(const dihaptic::gui::Opened& opened);
-    void refused(const QStringList& problems);
+    /// `of_file`: whether the problems are in the files, not in the devices that they name.
+    void refused(const QStringList& problems, bool of_file);
     /// Emitted after one second of waiting, and again whenever the waiting time has doubled.
     /// `what`: the work that takes so long; `most`: its time limit [s].
     void waits(const QString& what, int seconds, int most);
 
   private:
     void run(const Wanted& wanted);
-    void done(const std::optional<Opened>& result, const QStringList& problems);
+    void done(const std::optional<Opened>& result, const QStringList& problems, bool of_file);
 
     std::jthread thread_;
     std::optional<Wanted> next_;

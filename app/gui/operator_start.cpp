@@ -126,7 +126,7 @@ void OperatorWindow::start_trials() {
 
 void OperatorWindow::begin_in_study(const std::string& study,
                                     const recording::Participant& participant) {
-    if (!control_.may(SessionControl::Act::prepare) || !composer_->save()) return;
+    if (!control_.may(SessionControl::Act::prepare) || !save_to_start()) return;
     const auto told = [this](const std::string& line) { log(QString::fromStdString(line)); };
     QString why;
     try {
@@ -183,9 +183,17 @@ void OperatorWindow::begin_or_go_on(const recording::Participant& participant) {
     box->open();
 }
 
+/// A session uses the file as it is on the disk.
+bool OperatorWindow::save_to_start() {
+    if (composer_->save()) return true;
+    control_.refuse_to_start(tr("The text cannot be saved, and a session uses the saved file. %1")
+                                 .arg(composer_->refusal()));
+    return false;
+}
+
 void OperatorWindow::begin(const recording::Participant& participant, const std::string& resumes) {
     if (!control_.may(SessionControl::Act::prepare)) return;
-    if (resumes.empty() && !composer_->save()) return;
+    if (resumes.empty() && !save_to_start()) return;
     const bool by_person = session_->hand() == SessionPanel::Hand::person;
     control_.begin(request(), {participant, by_person, session_->pace()}, resumes);
 }

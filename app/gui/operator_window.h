@@ -129,6 +129,8 @@ class OperatorWindow : public QMainWindow {
     /// Starts the next session that a study has for the participant, as `dihaptic run STUDY` does.
     /// If the study's rules are against it, says so, and offers a session outside the study.
     void begin_in_study(const std::string& study, const recording::Participant& participant);
+    /// Saves the text for a session that is to start. If this fails, the sign says why none starts.
+    bool save_to_start();
     /// Saves the text, and starts a session with SessionControl::begin().
     void begin(const recording::Participant& participant, const std::string& resumes = "");
     void prepare(const session::Plan& plan, session::RunOptions& options);

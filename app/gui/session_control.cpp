@@ -156,6 +156,7 @@ std::optional<Asked> SessionControl::asked() const {
 void SessionControl::open(const QString& file) {
     file_ = file;
     starts_.reset();
+    last_end_.reset();
     recorded_.clear();
     if (const QStringList watched = watcher_.files() + watcher_.directories(); !watched.isEmpty())
         watcher_.removePaths(watched);
@@ -182,6 +183,7 @@ void SessionControl::take(const Opened& opened) {
     frame_ = opened.frame;
     complaint_.clear();
     text_is_wrong_ = false;
+    if (std::exchange(refused_for_text_, false)) last_end_.reset();  // the errors are mended
     // opening the devices may have added warnings
     QStringList warnings;
     for (const Problem& warning : plan_->warnings)
@@ -203,12 +205,19 @@ void SessionControl::take(const Opened& opened) {
     if (start_when_opened_) Q_EMIT start_due();
 }
 
-void SessionControl::refuse(const QStringList& problems) {
-    text_is_wrong_ = edited_;
-    if (std::exchange(start_when_opened_, false) && text_is_wrong_) refuse_to_start();
+void SessionControl::refuse(const QStringList& problems, bool of_file) {
+    const bool starting = starts_.has_value();
     starts_.reset();
+    if (of_file && !starting) text_is_wrong_ = edited_;
+    const bool wanted = std::exchange(start_when_opened_, false);
+    if (starting) {
+        refuse_to_start(problems.front(), of_file);
+        for (const QString& problem : problems.mid(1)) log(problem, true);
+    } else if (wanted && edited_) {
+        refuse_text_to_start();
+    }
     Q_EMIT judged(problems);
-    if (!edited_) {  // while typing, the user sees errors marked in the text
+    if (!edited_ && !starting) {  // while typing, the user sees errors marked in the text
         complaint_ = problems.front();
         for (const QString& problem : problems) log(problem, true);
         if (plan_) log(tr("The open file stays unchanged."));
@@ -221,12 +230,21 @@ bool SessionControl::want_start() {
     start_when_opened_ = loader_.loading() && !starts_;
     if (!may(Act::prepare)) return false;
     if (!text_is_wrong_ || !edited_) return true;
-    refuse_to_start();
+    refuse_text_to_start();
     return false;
 }
 
-void SessionControl::refuse_to_start() {
-    log(tr("The text has errors: it was not saved, and no session starts."), true);
+void SessionControl::refuse_text_to_start() {
+    refuse_to_start(tr("The text has errors: it was not saved, and no session starts. They are "
+                       "underlined in the text (Ctrl+E)."),
+                    true);
+}
+
+void SessionControl::refuse_to_start(const QString& why, bool by_text) {
+    log(why, true);
+    last_end_.emplace().why = why;
+    refused_for_text_ = by_text;
+    Q_EMIT changed();
 }
 
 void SessionControl::forget_start() {
@@ -238,6 +256,8 @@ void SessionControl::begin(session::Request request, const Start& start,
                            const std::string& resumes) {
     request.participant = start.participant.id;
     starts_ = start;
+    last_end_.reset();
+    complaint_.clear();
     loader_.load({request, true, start.by_person, resumes});
     Q_EMIT changed();
 }
@@ -405,6 +425,8 @@ void SessionControl::end(const SessionEnd& end) {
     for (const QString& message : end.messages) log(message, !end.good);
     for (const QString& aside : end.asides) log(aside);
     figures_.finish();
+    last_end_ = end;
+    refused_for_text_ = false;
     recorded_ = end.folder;
     if (!end.folder.isEmpty()) log(tr("recorded in %1").arg(end.folder));
     Q_EMIT rested(tr("idle"));

@@ -64,6 +64,9 @@ class SessionControl : public QObject {
     bool stale() const { return changed_; }
     /// Folder of the last session recorded from this file; empty if there is none.
     const QString& recorded() const { return recorded_; }
+    /// How the last session ended, or why it did not start; nullopt once another file has been
+    /// opened or another session is about to start.
+    const std::optional<SessionEnd>& last_end() const { return last_end_; }
     /// A fault of the file, or the reason why the session is paused; empty if there is none.
     const QString& complaint() const { return complaint_; }
     /// Whether the session is paused because Escape was pressed.
@@ -96,6 +99,9 @@ class SessionControl : public QObject {
     /// Cancels the session that is about to start, including a start that is still waiting for the
     /// file to be read.
     void forget_start();
+    /// Tells that the session that was wanted does not start. `why`: the reason, with its remedy;
+    /// `by_text`: whether an error of the file's text is the reason.
+    void refuse_to_start(const QString& why, bool by_text = false);
     /// Starts a session, after reading the file again so that the session uses its current
     /// contents. `resumes`: folder of the session to be continued, whose frozen files are read
     /// instead; "" for a new session. To be called only after the checks for which Act::prepare
@@ -153,8 +159,8 @@ class SessionControl : public QObject {
   private:
     static QString typed(const frame::TaskFrame& task, const task::TaskPlan& plan, int scale);
     void take(const Opened& opened);
-    void refuse(const QStringList& problems);
-    void refuse_to_start();
+    void refuse(const QStringList& problems, bool of_file);
+    void refuse_text_to_start();
     void pause_for_escape();
     void follow_pace(double now);
     void run(const Start& start, std::unique_ptr<devices::DeviceGroup> devices);
@@ -187,6 +193,8 @@ class SessionControl : public QObject {
     QString running_;           ///< folder of the running session; "" before it is known
     QString recorded_;
     QString complaint_;
+    std::optional<SessionEnd> last_end_;
+    bool refused_for_text_ = false;  ///< whether the last session did not start because of errors
     std::optional<recording::Remark> begun_;  ///< a note that the operator is writing
 };
 

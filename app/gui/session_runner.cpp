@@ -1,8 +1,9 @@
 #include "session_runner.h"
 
 #include <QCursor>
-
+#include <QFileInfo>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -19,6 +20,13 @@ void ask_display() {
 }
 
 std::atomic<SessionRunner*> the_runner{nullptr};
+
+SessionEnd::Way way_of(const session::Recorded& recorded, const session::Plan& plan) {
+    if (!recorded.fault.empty()) return SessionEnd::Way::broken_off;
+    return plan.task && recorded.info.state != recording::SessionState::complete
+               ? SessionEnd::Way::unfinished
+               : SessionEnd::Way::whole;
+}
 
 }  // namespace
 
@@ -99,12 +107,13 @@ void SessionRunner::start(session::Plan plan, session::RunOptions options, doubl
     };
     busy_ = true;
     thread_ = std::thread([this, options] {
-        const SessionEnd end = run(*session_, options);
+        SessionEnd end = run(*session_, options);
         busy_ = false;
         QMetaObject::invokeMethod(
             this,
-            [this, end] {
+            [this, end]() mutable {
                 thread_.join();
+                conclude(end);
                 {
                     const std::lock_guard lock(coming_and_going_);
                     session_.reset();
@@ -135,10 +144,30 @@ SessionEnd SessionRunner::run(Session& session, const session::RunOptions& optio
             (note.starts_with("note:") ? end.asides : end.messages) += QString::fromStdString(note);
         end.asides += QString::fromStdString(recorded.figures.convergence.describe());
         end.good = recorded.good();
+        end.way = way_of(recorded, session.plan);
     } catch (const std::exception& e) {
-        end.messages += QString::fromStdString(e.what());
+        end.way = SessionEnd::Way::broken_off;
+        end.messages.prepend(QString::fromStdString(e.what()));
     }
     return end;
+}
+
+void SessionRunner::conclude(SessionEnd& end) {
+    const session::Plan& plan = session_->plan;
+    if (!end.messages.isEmpty()) end.why = end.messages.front();
+    if (end.why.startsWith("WARNING: ")) end.why.remove(0, 9);
+    take_folder();
+    if (end.folder.isEmpty()) end.folder = session_->folder;
+    // a session that fails before its first tick removes its folder
+    if (end.folder.isEmpty() || !QFileInfo::exists(end.folder)) {
+        end.folder.clear();
+        end.way = SessionEnd::Way::not_started;
+    }
+    if (!plan.task) return;
+    end.trials = static_cast<int>(plan.task->trials.size());
+    end.done = static_cast<int>(std::lround(session_->live.done * end.trials));
+    // the window does not ask which simulated person does the trials
+    end.offered = plan.resumable && plan.moved_by.mover != recording::Mover::simulated_person;
 }
 
 }  // namespace dihaptic::gui

@@ -18,6 +18,19 @@ namespace dihaptic::gui {
 
 /// How a session ended.
 struct SessionEnd {
+    enum class Way {
+        whole,       ///< nothing is left to do
+        unfinished,  ///< it was ended before all of its trials were done
+        broken_off,  ///< a fault ended it; what was recorded until then remains
+        not_started
+    };
+    Way way = Way::not_started;
+    /// Why it was broken off or did not start, with the remedy; otherwise the gravest message about
+    /// the recording, or "" if there is none.
+    QString why;
+    int done = 0;          ///< number of trials that are done, including those of earlier sessions
+    int trials = 0;        ///< number of all trials; 0 if the session has none
+    bool offered = false;  ///< whether the window will offer to continue the session
     QString folder;        ///< folder of the recording; empty if the session never started
     QStringList messages;  ///< faults, with their remedies
     QStringList asides;    ///< what need not worry the operator
@@ -66,7 +79,11 @@ class SessionRunner : public QObject {
     void set_paused(bool paused) { session_->live.paused = paused; }
     /// The folder of the session's recording. Returned only once; "" before it is known and
     /// afterwards.
-    QString take_folder() { return QString::fromStdString(session_->live.take_folder()); }
+    QString take_folder() {
+        const QString folder = QString::fromStdString(session_->live.take_folder());
+        if (!folder.isEmpty()) session_->folder = folder;
+        return folder;
+    }
     /// The reason why the session has paused by itself since the last call; "" if it has not
     /// paused.
     QString take_told() { return QString::fromStdString(session_->live.take_told()); }
@@ -146,7 +163,10 @@ class SessionRunner : public QObject {
         frame::Knobs knobs;  ///< target values of the knobs
         ValueRing<char> keys{task::kMostKeys};
         std::atomic<bool> finishing{false};
+        QString folder;  ///< folder of the recording; "" before it is known
     };
+    /// Completes what is known about the end of a session, whose thread has ended.
+    void conclude(SessionEnd& end);
     SessionEnd run(Session& session, const session::RunOptions& options);
 
     std::atomic<bool>& stop_;

@@ -40,14 +40,44 @@ SessionSign sign_of_waiting(const SessionControl& control) {
     return {Sign::paused, QObject::tr("Paused"), waits};
 }
 
+/// How much of the session is done and where it is, and what comes next.
+QString about_rest(const SessionEnd& end) {
+    const QString where =
+        QObject::tr("What was recorded is in %1.").arg(QFileInfo(end.folder).fileName());
+    if (end.trials == 0) return where + " " + QObject::tr("F5 starts again.");
+    const QString next = end.offered ? QObject::tr("F5 offers to continue.")
+                                     : QObject::tr("F5 starts a new session.");
+    return QObject::tr("%1 of %2 trials are done.").arg(end.done).arg(end.trials) + " " + next +
+           "\n" + where;
+}
+
+SessionSign sign_of_end(const SessionEnd& end) {
+    switch (end.way) {
+        case SessionEnd::Way::not_started:
+            return {Sign::fault, QObject::tr("Did not start"),
+                    end.why + "\n" + QObject::tr("F5 tries again.")};
+        case SessionEnd::Way::broken_off:
+            return {Sign::fault, QObject::tr("Broken off"), end.why + "\n" + about_rest(end)};
+        case SessionEnd::Way::unfinished:
+            return {Sign::warning, QObject::tr("Unfinished"), about_rest(end)};
+        case SessionEnd::Way::whole:
+            break;
+    }
+    const QString where = QFileInfo(end.folder).fileName();
+    if (!end.good && !end.why.isEmpty()) {
+        return {Sign::warning, QObject::tr("Warning"),
+                end.why + "\n" +
+                    QObject::tr("Recorded in %1. Ctrl+R shows its report, F5 starts again.")
+                        .arg(where)};
+    }
+    return {Sign::idle, QObject::tr("Recorded"),
+            QObject::tr("In %1. Ctrl+R shows its report, F5 starts again.").arg(where)};
+}
+
 SessionSign sign_of_file(const SessionControl& control) {
     if (!control.complaint().isEmpty())
         return {Sign::fault, QObject::tr("The file has errors"), control.complaint()};
-    if (!control.recorded().isEmpty()) {
-        return {Sign::idle, QObject::tr("Recorded"),
-                QObject::tr("In %1. Ctrl+R shows its report, F5 starts again.")
-                    .arg(QFileInfo(control.recorded()).fileName())};
-    }
+    if (control.last_end()) return sign_of_end(*control.last_end());
     if (control.state() == SessionControl::State::no_file)
         return {Sign::idle, QObject::tr("No file"),
                 QObject::tr("Ctrl+O opens a scene or an experiment.")};

@@ -139,6 +139,8 @@ SignLook look_of(Sign sign) {
             return {"#b3261e", "#ffffff", shapes::kHalted};
         case Sign::fault:
             return {"#7a1f7f", "#ffffff", shapes::kFault};
+        case Sign::warning:
+            return {"#a35200", "#ffffff", shapes::kWarning};
     }
     return {};
 }

@@ -18,9 +18,10 @@ enum class Sign {
     running,  ///< the session runs
     paused,   ///< the operator has paused it
     stopped,  ///< Escape has taken the force away
-    fault     ///< a fault has taken the force away, or a file has errors
+    fault,    ///< a fault has taken the force away, a file has errors, or no session could start
+    warning   ///< the last session is not finished, or its recording has a fault
 };
-inline constexpr int kSigns = 6;
+inline constexpr int kSigns = 7;
 
 struct SignLook {
     QColor fill;            ///< background

@@ -3,9 +3,12 @@
 #include "session_control.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <QCoreApplication>
+#include <QFileInfo>
 #include <algorithm>
+#include <csignal>
 #include <map>
 
 #include "answer_until.h"
@@ -126,10 +129,111 @@ TEST_F(SessionControlTest, NoSessionStartsFromUnsavedTextWithErrors) {
     ASSERT_TRUE(comes_to(State::checked));
     EXPECT_FALSE(problems_.isEmpty());
     EXPECT_TRUE(control_.complaint().isEmpty());  // errors are marked in the text
+    EXPECT_EQ(sign_of(control_).word, "Ready");
     EXPECT_FALSE(control_.want_start());
     EXPECT_TRUE(logged("The text has errors"));
+    EXPECT_EQ(sign_of(control_).sign, Sign::fault);
+    EXPECT_EQ(sign_of(control_).word, "Did not start");
+    EXPECT_TRUE(sign_of(control_).text.contains("The text has errors"));
     control_.set_edited(false);
     EXPECT_TRUE(control_.want_start());
+    control_.read(request(), std::nullopt);  // the errors are mended
+    ASSERT_TRUE(comes_to(State::checked));
+    EXPECT_EQ(sign_of(control_).word, "Ready");
+}
+
+TEST_F(SessionControlTest, ASignSaysWhyNoSessionStartsUntilAnotherDoes) {
+    open("scenes/block-on-table.yaml");
+    ASSERT_TRUE(comes_to(State::checked));
+    control_.set_out(QString::fromStdString(folder_.write("no-folder", "")));
+    control_.begin(request(), {{"S07", "", "", ""}, false, 0.1}, "");
+    ASSERT_TRUE(answer_until([&] { return ended_ == 1; }));
+    const SessionSign sign = sign_of(control_);
+    EXPECT_EQ(sign.sign, Sign::fault);
+    EXPECT_EQ(sign.word, "Did not start");
+    EXPECT_TRUE(sign.text.contains("Where sessions go")) << sign.text.toStdString();
+    EXPECT_TRUE(control_.recorded().isEmpty());
+    control_.read(request(), std::nullopt);
+    ASSERT_TRUE(comes_to(State::checked));
+    EXPECT_EQ(sign_of(control_).word, "Did not start");
+    control_.set_out(QString::fromStdString(folder_.path()));
+    control_.begin(request(), {{"S07", "", "", ""}, false, 0.1}, "");
+    EXPECT_EQ(sign_of(control_).word, "Starting");
+    ASSERT_TRUE(answer_until([&] { return frames_ > 0; }));
+    control_.stop();
+    ASSERT_TRUE(answer_until([&] { return ended_ == 2; }));
+    EXPECT_EQ(sign_of(control_).word, "Recorded");
+}
+
+TEST_F(SessionControlTest, NoSessionStartsFromAFileWithErrors) {
+    const std::string file = folder_.write("open.yaml", "title: one\n");
+    open(file);
+    ASSERT_TRUE(answer_until([&] { return !control_.loading(); }));
+    open("scenes/block-on-table.yaml");
+    ASSERT_TRUE(comes_to(State::checked));
+    session::Request wrong = request();
+    wrong.file = folder_.write("wrong.yaml", "title: [\n");
+    control_.begin(wrong, {{"S07", "", "", ""}, false, 0.1}, "");
+    ASSERT_TRUE(comes_to(State::checked));
+    EXPECT_EQ(sign_of(control_).word, "Did not start");
+    EXPECT_TRUE(sign_of(control_).text.contains("wrong.yaml"));
+}
+
+/// The size beyond which this process cannot write a file, as on a full disk; no limit at the end.
+class FullDisk {
+  public:
+    explicit FullDisk(rlim_t bytes) : handled_(std::signal(SIGXFSZ, SIG_IGN)) {
+        ::getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit limit{bytes, before_.rlim_max};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FullDisk() {
+        ::setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handled_);
+    }
+
+  private:
+    void (*handled_)(int);
+    rlimit before_{};
+};
+
+TEST_F(SessionControlTest, ASessionThatIsBrokenOffSaysWhyAndWhereItIs) {
+    run(true);
+    const FullDisk full(10'000);
+    ASSERT_TRUE(answer_until([&] { return ended_ == 1; }));
+    const SessionSign sign = sign_of(control_);
+    EXPECT_EQ(sign.sign, Sign::fault);
+    EXPECT_EQ(sign.word, "Broken off");
+    ASSERT_TRUE(control_.last_end());
+    EXPECT_TRUE(sign.text.contains("cannot be written")) << sign.text.toStdString();
+    EXPECT_TRUE(sign.text.contains(QFileInfo(control_.recorded()).fileName()));
+    EXPECT_TRUE(QFileInfo::exists(control_.recorded() + "/raw.log"));
+}
+
+TEST_F(SessionControlTest, ASessionWithTrialsLeftIsUnfinished) {
+    control_.open("experiments/visuomotor-rotation.yaml");
+    session::Request asked = request();
+    asked.participant = "S07";
+    asked.mouse = true;
+    control_.read(asked, std::nullopt);
+    ASSERT_TRUE(comes_to(State::checked));
+    control_.begin(asked, {{"S07", "", "", ""}, false, 1}, "");
+    ASSERT_TRUE(answer_until([&] { return control_.may(Act::skip); }));
+    ASSERT_TRUE(answer_until([&] {
+        control_.skip();
+        return control_.runner().done() > 0;
+    }));
+    control_.stop();
+    ASSERT_TRUE(answer_until([&] { return ended_ == 1; }));
+    EXPECT_EQ(sign_of(control_).sign, Sign::warning);
+    EXPECT_EQ(sign_of(control_).word, "Unfinished");
+    const SessionEnd& end = *control_.last_end();
+    EXPECT_GE(end.done, 1);
+    EXPECT_EQ(end.trials, 504);
+    const QString text = sign_of(control_).text;
+    EXPECT_TRUE(
+        text.startsWith(QString("%1 of 504 trials are done. F5 offers to continue.").arg(end.done)))
+        << text.toStdString();
 }
 
 TEST_F(SessionControlTest, AWantedStartWaitsForTheFile) {
