@@ -274,6 +274,7 @@ void SessionControl::run(const Start& start, std::unique_ptr<devices::DeviceGrou
     changed_ = changed_ || !plan_->resumes.empty();
     escaped_ = false;
     running_.clear();
+    start_.reset();
     pace_ = start.pace > 0 ? start.pace : 1;
     since_pace_.invalidate();
     Q_EMIT prepared(*plan_, options);
@@ -402,7 +403,8 @@ void SessionControl::show(const frame::Frame& frame) {
         Q_EMIT changed();
     }
     follow_pace(seconds(frame.time));
-    Q_EMIT progressed(progress_of(runner_.plan(), frame, runner_.done(), pace_));
+    if (!start_) start_ = ProgressStart{seconds(frame.time), runner_.done()};
+    Q_EMIT progressed(progress_of(runner_.plan(), frame, runner_.done(), pace_, *start_));
 }
 
 /// Measures how fast the session's time passes, once a second.

@@ -187,10 +187,11 @@ class SessionControl : public QObject {
     bool changed_ = false;
     bool cut_ = false;
     bool escaped_ = false;
-    double pace_ = 1;           ///< ratio of session time to wall time, as measured
-    double pace_from_ = 0;      ///< session time at which since_pace_ was started [s]
-    QElapsedTimer since_pace_;  ///< invalid while time stands still
-    QString running_;           ///< folder of the running session; "" before it is known
+    std::optional<ProgressStart> start_;  ///< unset before the running session's first frame
+    double pace_ = 1;                     ///< ratio of session time to wall time, as measured
+    double pace_from_ = 0;                ///< session time at which since_pace_ was started [s]
+    QElapsedTimer since_pace_;            ///< invalid while time stands still
+    QString running_;                     ///< folder of the running session; "" before it is known
     QString recorded_;
     QString complaint_;
     std::optional<SessionEnd> last_end_;

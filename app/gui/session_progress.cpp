@@ -53,13 +53,14 @@ QString roughly(double seconds) {
 }
 
 SessionProgress progress_of(const session::Plan& plan, const frame::Frame& frame, double done,
-                            double pace) {
+                            double pace, const ProgressStart& start) {
     const double now = seconds(frame.time);
     if (plan.task) {
-        // assumes that the remaining trials will take as long as the completed ones
-        const QString left =
-            done > 0 ? QObject::tr("about %1 left").arg(roughly(now * (1 - done) / done / pace))
-                     : duration(now);
+        // assumes that the remaining trials will take as long as those completed in this session
+        const double taken = (now - start.time) / (done - start.done) / pace;
+        const QString left = done > start.done
+                                 ? QObject::tr("about %1 left").arg(roughly(taken * (1 - done)))
+                                 : duration(now);
         return {number_of_trial(*plan.task, frame), names_of_trial(*plan.task, frame), done, left};
     }
     if (plan.open_ended()) return {"", "", 0, duration(now)};

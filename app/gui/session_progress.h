@@ -15,11 +15,18 @@ struct SessionProgress {
     QString text;      ///< remaining time or, if that is unknown, elapsed time
 };
 
+/// Where a session stood when it was first looked at: a session that continues another one begins
+/// with trials that are done already.
+struct ProgressStart {
+    double time = 0;  ///< session time [s]
+    double done = 0;  ///< share of completed trials
+};
+
 /// `done`: share of completed trials. `pace`: ratio of session time to wall time, since the
 /// remaining time is that of the person who waits. Without trials or a script, only the elapsed
 /// time is known.
 SessionProgress progress_of(const session::Plan& plan, const frame::Frame& frame, double done,
-                            double pace);
+                            double pace, const ProgressStart& start = {});
 
 /// A duration as somebody would say it who estimates [s].
 QString roughly(double seconds);

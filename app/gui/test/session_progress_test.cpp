@@ -50,6 +50,13 @@ TEST(SessionProgress, OfTrialsIsWhichAndHowLongTheRestTakes) {
     EXPECT_EQ(progress_of(plan, frame, 0.25, 10).text, "about 30 s left");
 }
 
+TEST(SessionProgress, OfTheRestOfASessionIsEstimatedFromItsOwnTrials) {
+    const session::Plan plan = plan_of("experiments/visuomotor-rotation.yaml");
+    const ProgressStart start{0, 0.5};
+    EXPECT_EQ(progress_of(plan, at(100), 0.5, 1, start).text, "1 min 40 s");
+    EXPECT_EQ(progress_of(plan, at(100), 0.6, 1, start).text, "about 7 min left");
+}
+
 TEST(SessionProgress, RoundsWhatIsEstimated) {
     EXPECT_EQ(roughly(3), "a few seconds");
     EXPECT_EQ(roughly(32.7), "35 s");
