@@ -51,9 +51,8 @@ Composer::Composer(QWidget* parent)
     layout->addLayout(below);
     pause_.setSingleShot(true);
     pause_.setInterval(kPause);
-    connect(edit_, &QPlainTextEdit::textChanged, this, [this] {
-        if (changed()) pause_.start();
-    });
+    // also when the text becomes that of the file again, as by undoing
+    connect(edit_, &QPlainTextEdit::textChanged, &pause_, qOverload<>(&QTimer::start));
     connect(edit_->document(), &QTextDocument::modificationChanged, this, [this](bool changed) {
         save_->setEnabled(changed);
         if (!changed) drop_draft();

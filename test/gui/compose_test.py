@@ -5,6 +5,8 @@ import re
 import time
 import unittest
 
+import numpy as np
+
 from window import SCENE, Window, patient
 
 import soak
@@ -187,6 +189,28 @@ class Compose(Window):
         self.drag([715, 410], [765, 410], "ctrl")
         self.key("ctrl+s")
         self.wait("the turn", lambda: "  - name: block\n    rotation_deg: [0, 0, 22.9]\n" in self.text())  # 0.4 rad
+        self.quit()
+
+    def test_undoing_a_drag_moves_the_body_back_in_the_picture(self):
+        self.open()
+        self.key("ctrl+e")
+        self.settle()
+        scene = lambda: self.pixels(500, 100, 500, 600).astype(int)
+        self.xdotool("mousemove", "715", "490", "click", "1")
+        time.sleep(0.5)
+        self.settle()
+        before = scene()
+        self.drag([715, 490], [815, 470])
+        time.sleep(1)
+        self.settle()
+        self.xdotool("mousemove", "715", "490")
+        self.assertGreater(np.abs(scene() - before).mean(), 0.5)
+        self.key("ctrl+z")
+        time.sleep(1)  # a pause, after which the text is shown
+        self.settle()
+        self.screenshot("compose-undone")
+        self.assertLess(np.abs(scene() - before).mean(), 0.1)
+        self.assertEqual(self.text(), SCENE)
         self.quit()
 
     @soak.alone

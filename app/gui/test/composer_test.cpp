@@ -1,0 +1,56 @@
+// Tests what the editor of files opens, checks and writes.
+#include "composer.h"
+
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QPlainTextEdit>
+
+#include "answer_until.h"
+#include "testing/files.h"
+
+namespace dihaptic::gui::composer_test {
+namespace {
+
+class ComposerTest : public ::testing::Test {
+  protected:
+    ComposerTest() {
+        QObject::connect(&composer_, &Composer::edited, &composer_, [this] { ++checks_; });
+    }
+    QString write(const char* name, const std::string& text) {
+        return QString::fromStdString(folder_.write(name, text));
+    }
+    QPlainTextEdit& text() { return *composer_.findChild<QPlainTextEdit*>(); }
+    /// Whether the text is checked within a few seconds.
+    bool is_checked() {
+        const int before = checks_;
+        return answer_until([&] { return checks_ > before; });
+    }
+
+    int count_ = 1;
+    char name_[5] = "test";
+    char* names_[2] = {name_, nullptr};
+    const bool offscreen_ = qputenv("QT_QPA_PLATFORM", "offscreen");
+    testing::TemporaryFolder folder_;
+    const bool state_ = qputenv("XDG_STATE_HOME", QByteArray::fromStdString(folder_.path()));
+    QApplication application_{count_, names_};
+    Composer composer_;
+    int checks_ = 0;
+};
+
+TEST_F(ComposerTest, ChecksTheTextAlsoWhenUndoingLeadsBackToTheFile) {
+    composer_.open(write("scene.yaml", "title: one\n"));
+    text().insertPlainText("# mine\n");
+    ASSERT_TRUE(is_checked());
+    EXPECT_TRUE(composer_.unsaved());
+    composer_.undo();
+    EXPECT_FALSE(composer_.changed());
+    EXPECT_TRUE(is_checked());
+    EXPECT_FALSE(composer_.unsaved());
+    composer_.redo();
+    EXPECT_TRUE(is_checked());
+    EXPECT_TRUE(composer_.unsaved());
+}
+
+}  // namespace
+}  // namespace dihaptic::gui::composer_test
