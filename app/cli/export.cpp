@@ -7,7 +7,7 @@
 #include "analysis/bids.h"
 #include "analysis/curves.h"
 #include "command.h"
-#include "output_file.h"
+#include "common/output_file.h"
 #include "study_export.h"
 
 namespace dihaptic::cli {
@@ -79,7 +79,7 @@ void to_csv(const recording::SessionFolder& session, const Options& options) {
         const auto folder = std::filesystem::canonical(session.path());
         file = folder.filename().string() + "_curves.csv";
     }
-    check_output_file(file, session.path(), "the session's folder", ".csv");
+    app::check_output_file(file, session.path(), "the session's folder", ".csv");
     check_curves(file);
     std::vector<std::string> wrong;
     {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "output_file.h"
+#include "common/output_file.h"
 #include "showing.h"
 
 namespace dihaptic::cli {
@@ -11,7 +11,7 @@ struct PictureOptions : ViewOptions {
 };
 
 void make_picture(const PictureOptions& options) {
-    check_output_file(options.out, options.file, "the file shown", ".png");
+    app::check_output_file(options.out, options.file, "the file shown", ".png");
     const Showing showing = open_showing(options.file);
     Drawer drawer(showing, options);
     // a scene is shown at its start, a session at its end

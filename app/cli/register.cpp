@@ -5,7 +5,7 @@
 #include "base/text_file.h"
 #include "base/unit.h"
 #include "command.h"
-#include "output_file.h"
+#include "common/output_file.h"
 #include "recording/session.h"
 #include "rig/registration_run.h"
 #include "terminal_guide.h"
@@ -33,7 +33,7 @@ display::Display misplaced(const display::Display& display) {
 }
 
 void draw_crosses(const display::Display& display, const RegisterOptions& options) {
-    check_output_file(options.crosses, options.rig, "the rig file", ".svg");
+    app::check_output_file(options.crosses, options.rig, "the rig file", ".svg");
     write_file(display::cross_picture(display), options.crosses);
     fmt::print("{}: show it on the whole of {}'s screen, then register without --crosses\n",
                options.crosses, display.name);

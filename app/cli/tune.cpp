@@ -4,7 +4,7 @@
 
 #include "base/text_file.h"
 #include "command.h"
-#include "output_file.h"
+#include "common/output_file.h"
 #include "session/plan.h"
 
 namespace dihaptic::cli {
@@ -29,7 +29,7 @@ void run(TuneOptions options) {
     const measure::TuneSetup setup = measure::tune_setup(plan.rig, scene::finger_names(plan.scene),
                                                          plan.settings, plan.hand.impedance);
     // reported before a minute of computation, not after it
-    check_output_file(options.map, options.request.file, "the file to be tuned", ".svg");
+    app::check_output_file(options.map, options.request.file, "the file to be tuned", ".svg");
     const auto result = with_progress("tune", [&](const measure::Progress& progress) {
         return measure::tune(setup, stop_requested, progress);
     });

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "base/plural.h"
-#include "output_file.h"
+#include "common/output_file.h"
 #include "showing.h"
 #include "view/movie.h"
 
@@ -11,7 +11,7 @@ namespace {
 constexpr int kRate = 60;  // pictures per second
 
 void make_video(const ViewOptions& options) {
-    check_output_file(options.out, options.file, "the file shown", ".mp4");
+    app::check_output_file(options.out, options.file, "the file shown", ".mp4");
     const Showing showing = open_showing(options.file);
     Drawer drawer(showing, options);
     view::Movie movie(options.out, drawer.width(), drawer.height(), kRate);

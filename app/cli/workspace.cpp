@@ -4,7 +4,7 @@
 
 #include "base/text_file.h"
 #include "command.h"
-#include "output_file.h"
+#include "common/output_file.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -44,7 +44,7 @@ void show_workspace(const std::string& file, const std::string& out) {
     const rig::Rig rig = rig::read_rig(file, diagnostics, rig::NamedBy::the_operator);
     diagnostics.throw_if_errors();
     print(diagnostics.problems());
-    check_output_file(out, file, "the rig file", ".svg");
+    app::check_output_file(out, file, "the rig file", ".svg");
     const std::vector<rig::Reach> reaches = rig::reaches(rig);
     rig::Workspace found;
     {

@@ -7,6 +7,8 @@
 #include <QVBoxLayout>
 
 #include "base/text.h"
+#include "base/text_file.h"
+#include "save_dialog.h"
 #include "scene/body_text.h"
 
 namespace dihaptic::gui {
@@ -273,7 +275,14 @@ bool Composer::may_write() {
         return refuse(tr("%1 has become a link, or leads elsewhere than when it was opened: "
                          "nothing was written. Save the text under another name (Ctrl+Shift+S).")
                           .arg(file_.name()));
+    if (!may_replace(file_.path(), {ending_of(file_.path())})) return false;
     return !file_.is_there() || !file_.has_changed() || may_overwrite();
+}
+
+/// The files of a recorded session stay as they were recorded.
+bool Composer::may_replace(const QString& file, const QStringList& endings) {
+    const QString why = QFileInfo::exists(file) ? why_not_to_write(file, endings) : "";
+    return why.isEmpty() || refuse(why);
 }
 
 bool Composer::may_overwrite() {
@@ -292,7 +301,7 @@ bool Composer::may_overwrite() {
 }
 
 bool Composer::save_as(const QString& file) {
-    if (!is_writable_text()) return false;
+    if (!is_writable_text() || !may_replace(file, {".yaml", ".yml"})) return false;
     try {
         replace_file(file, content());
     } catch (const Error& e) {

@@ -102,6 +102,7 @@ class Composer : public QWidget {
     bool is_writable_text();
     /// Whether the file may be written in its present state. If not, shows the reason.
     bool may_write();
+    bool may_replace(const QString& file, const QStringList& endings);
     bool may_overwrite();
     /// Shows a note about the state of the file below other messages, for as long as the state
     /// lasts; "" removes the note.

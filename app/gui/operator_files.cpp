@@ -12,6 +12,8 @@
 #include <cstdio>
 #include <numbers>
 
+#include "reporter.h"
+#include "save_dialog.h"
 #include "session_player.h"
 #include "sessions_dialog.h"
 
@@ -74,9 +76,16 @@ void OperatorWindow::make_new(NewFiles::Kind kind) {
 
 void OperatorWindow::save_as() {
     if (control_.file().isEmpty() || !control_.may(SessionControl::Act::open)) return;
-    const QString file = QFileDialog::getSaveFileName(this, tr("Save as"), control_.file(),
+    const QFileInfo now(control_.file());
+    const QString usual = is_own_folder(now.absolutePath())
+                              ? control_.file()
+                              : QDir(usual_folder()).filePath(now.fileName());
+    const QString file = QFileDialog::getSaveFileName(this, tr("Save as"), usual,
                                                       tr("Scenes and experiments (*.yaml)"));
-    if (!file.isEmpty() && composer_->save_as(file)) open(file);
+    if (!file.isEmpty() && composer_->save_as(file)) {
+        remember_folder_of(file);
+        open(file);
+    }
 }
 
 void OperatorWindow::choose_session() {

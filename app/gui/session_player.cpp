@@ -4,7 +4,6 @@
 #include <QBuffer>
 #include <QComboBox>
 #include <QDockWidget>
-#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
@@ -31,6 +30,7 @@
 #include "rows/event_row.h"
 #include "rows/lift_row.h"
 #include "rows/trial_row.h"
+#include "save_dialog.h"
 #include "saved_curves.h"
 #include "time_chart.h"
 
@@ -355,17 +355,25 @@ void SessionPlayer::next_moment(int way) {
     if (const auto time = moments_->next_from(time_, way)) go_to(*time);
 }
 
+/// The name of a file that is made from this session: outside the session's folder, it tells whose
+/// it is.
+QString SessionPlayer::own_name(const QString& what) const {
+    return text(std::filesystem::path(folder_.path()).filename().string()) + "-" + what;
+}
+
 void SessionPlayer::save_picture() {
-    const QString usual =
-        QString::fromStdString(folder_.path()) + QString("/at-%1-s.png").arg(time_, 0, 'f', 3);
-    const QString file =
-        QFileDialog::getSaveFileName(this, tr("Save the picture"), usual, tr("Pictures (*.png)"));
+    const QString file = ask_where_to_save({tr("Save the picture"),
+                                            own_name(QString("at-%1-s.png").arg(time_, 0, 'f', 3)),
+                                            tr("Pictures (*.png)"),
+                                            {".png"}},
+                                           this);
     if (file.isEmpty()) return;
     QByteArray picture;
     QBuffer to(&picture);
     try {
         if (!view_->grabFramebuffer().save(&to, "PNG")) throw Error("there is no picture", "");
         replace_file(file, picture);
+        remember_folder_of(file);
         statusBar()->showMessage(tr("picture: %1").arg(file));
     } catch (const Error& e) {
         statusBar()->showMessage(QString::fromStdString(e.problems().front().text()));
@@ -373,10 +381,12 @@ void SessionPlayer::save_picture() {
 }
 
 void SessionPlayer::save_curves() {
-    const QString file = QFileDialog::getSaveFileName(
-        this, tr("Save the stretch that the curves show, as a figure or as numbers"),
-        QString::fromStdString(folder_.path()) + "/curves.svg",
-        tr("Figures and tables (*.svg *.pdf *.png *.csv)"));
+    const QString file =
+        ask_where_to_save({tr("Save the stretch that the curves show, as a figure or as numbers"),
+                           own_name("curves.svg"),
+                           tr("Figures and tables (*.svg *.pdf *.png *.csv)"),
+                           {".svg", ".pdf", ".png", ".csv"}},
+                          this);
     if (file.isEmpty()) return;
     try {
         if (file.endsWith(".csv")) {
@@ -386,6 +396,7 @@ void SessionPlayer::save_curves() {
         } else {
             save_figure(*chart_, file);
         }
+        remember_folder_of(file);
         statusBar()->showMessage(tr("curves: %1").arg(file));
     } catch (const Error& e) {
         statusBar()->showMessage(QString::fromStdString(e.problems().front().text()));
@@ -395,16 +406,18 @@ void SessionPlayer::save_curves() {
 
 void SessionPlayer::save_video() {
     play(false);
-    const Film film{
-        QFileDialog::getSaveFileName(this, tr("Save a video of the stretch that the curves show"),
-                                     QString::fromStdString(folder_.path()) + "/session.mp4",
-                                     tr("Videos (*.mp4)")),
-        chart_->begin(), chart_->end(), speed_, [this](double time) { go_to(time); }};
+    const Film film{ask_where_to_save({tr("Save a video of the stretch that the curves show"),
+                                       own_name("video.mp4"),
+                                       tr("Videos (*.mp4)"),
+                                       {".mp4"}},
+                                      this),
+                    chart_->begin(), chart_->end(), speed_, [this](double time) { go_to(time); }};
     if (film.file.isEmpty()) return;
     const double before = time_;
     try {
-        statusBar()->showMessage(make_film(film, *view_, this) ? tr("video: %1").arg(film.file)
-                                                               : tr("there is no video"));
+        const bool made = make_film(film, *view_, this);
+        if (made) remember_folder_of(film.file);
+        statusBar()->showMessage(made ? tr("video: %1").arg(film.file) : tr("there is no video"));
     } catch (const Error& e) {
         statusBar()->showMessage(QString::fromStdString(e.problems().front().text()));
     }

@@ -67,6 +67,7 @@ class SessionPlayer : public QMainWindow {
     void go_on();
     void step(int frames);
     void next_moment(int way);
+    QString own_name(const QString& what) const;
     void save_picture();
     void save_video();
 

@@ -22,7 +22,11 @@ class Player(Window):
 
     def saved_at(self, folder):
         """Times of the saved pictures, from their names."""
-        return sorted(float(os.path.basename(file)[3:-6]) for file in glob.glob(folder + "/at-*-s.png"))
+        return sorted(float(file.rpartition("-at-")[2][:-6]) for file in glob.glob(self.picture_of(folder, "*")))
+
+    def picture_of(self, folder, at):
+        """Pictures go to the user's documents or, if there is no such folder, to the home."""
+        return f"{self.folder.name}/{os.path.basename(folder)}-at-{at}-s.png"
 
     def save(self, folder):
         before = len(self.saved_at(folder))
@@ -51,8 +55,8 @@ class Player(Window):
         played = self.saved_at(folder)[1]
         self.assertGreater(played, 1)
         self.assertLess(played, 9.5)
-        self.assertNotEqual(pathlib.Path(folder, "at-9.500-s.png").read_bytes(),
-                            pathlib.Path(folder, f"at-{played:.3f}-s.png").read_bytes())
+        self.assertNotEqual(pathlib.Path(self.picture_of(folder, "9.500")).read_bytes(),
+                            pathlib.Path(self.picture_of(folder, f"{played:.3f}")).read_bytes())
         self.key("ctrl+w")
         self.wait("the end", lambda: self.window.poll() is not None or True)
 
@@ -75,6 +79,41 @@ class Player(Window):
             rows = list(csv.DictReader(table))
         self.assertEqual(len(rows), 9501)  # a row for each tick
         self.assertAlmostEqual(max(float(row["grip_force_N"]) for row in rows), 4, delta=3)
+        self.quit()
+
+    def test_never_replaces_what_belongs_to_a_session(self):
+        folder = self.record()
+        texture = pathlib.Path(folder, "curves.csv")
+        texture.write_text("the laboratory's own")
+        before = {name: pathlib.Path(folder, name).read_bytes() for name in os.listdir(folder)}
+        self.open(folder)
+        for keys, title, name in (("ctrl+shift+c", "^Save the stretch", "lifts.csv"), ("ctrl+shift+c", "^Save the stretch", "curves.csv"),
+                                  ("ctrl+s", "^Save the picture", "session.yaml"),
+                                  ("ctrl+shift+s", "^Save a video", "session.nwb")):
+            with self.subTest(name):
+                self.key(keys)
+                dialog = self.wait("the dialog", lambda: self.dialogs(title))[-1]
+                self.xdotool("windowfocus", dialog)
+                time.sleep(0.5)
+                self.key("ctrl+a")
+                self.type(f"{folder}/{name}")
+                self.key("Return")
+                replace = self.wait("the question", lambda: [other for other in self.dialogs("Save|^$") if other != dialog])
+                self.xdotool("windowfocus", replace[-1])
+                time.sleep(0.5)
+                self.screenshot("player-replace-" + name)
+                self.key("alt+y")  # yes, replace it
+                self.wait("the dialog's end", lambda: not self.xdotool("getwindowname", dialog).startswith("Save")
+                          or dialog not in self.dialogs(title))
+                refusal = self.wait("the refusal", lambda: self.dialogs(title))[-1]
+                self.xdotool("windowfocus", refusal)
+                time.sleep(0.5)
+                self.screenshot("player-refuses-" + name)
+                self.key("Return")
+                self.wait("the refusal's end", lambda: not self.dialogs(title))
+                self.xdotool("windowfocus", self.name)
+                time.sleep(0.3)
+        self.assertEqual({name: pathlib.Path(folder, name).read_bytes() for name in os.listdir(folder)}, before)
         self.quit()
 
     def test_draws_what_is_ticked_in_the_list_of_curves(self):

@@ -52,5 +52,21 @@ TEST_F(ComposerTest, ChecksTheTextAlsoWhenUndoingLeadsBackToTheFile) {
     EXPECT_TRUE(composer_.unsaved());
 }
 
+TEST_F(ComposerTest, LeavesTheFilesOfASessionAsTheyWereRecorded) {
+    write("session.yaml", "state: complete\n...\n");
+    const QString frozen = write("scene.yaml", "title: one\n");
+    const QString own = write("../mine.yaml", "title: two\n");
+    composer_.open(frozen);
+    text().insertPlainText("# mine\n");
+    EXPECT_FALSE(composer_.save());
+    EXPECT_TRUE(composer_.refusal().contains("session's folder"))
+        << composer_.refusal().toStdString();
+    EXPECT_FALSE(composer_.save_as(frozen));
+    EXPECT_EQ(testing::read_file(frozen.toStdString()), "title: one\n");
+    EXPECT_TRUE(composer_.save_as(own));
+    EXPECT_EQ(testing::read_file(own.toStdString()), "# mine\ntitle: one\n");
+    std::remove(own.toStdString().c_str());
+}
+
 }  // namespace
 }  // namespace dihaptic::gui::composer_test
