@@ -7,9 +7,11 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import needs
+from patience import patient
 
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve().parent
 SOURCE = pathlib.Path.cwd()
@@ -83,6 +85,25 @@ print(len(dh.run("experiments/lift-block.yaml", out="by-python").lifts))
 """)
         self.assertEqual(said.splitlines(), [f"{self.prefix}/bin/dihaptic", f"{self.prefix}/share/dihaptic/scenes/block-on-table.yaml",
                                         "1"])
+
+    def test_the_window_finds_the_program_that_draws_its_pictures(self):
+        needs.for_this_test("Xvfb", "xvfb")
+        read, write = os.pipe()
+        display = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-noreset"], pass_fds=[write], stderr=subprocess.DEVNULL)
+        self.addCleanup(display.wait)
+        self.addCleanup(display.terminate)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            number = pipe.readline().strip()
+        environment = dict(self.environment, DISPLAY=":" + number, XDG_CACHE_HOME=str(self.work / "cache"))
+        window = subprocess.Popen(["dihaptic", "gui"], cwd=self.work, env=environment, stderr=subprocess.DEVNULL)
+        self.addCleanup(window.wait)
+        self.addCleanup(window.kill)
+        end = time.monotonic() + patient(60)
+        while not list((self.work / "cache").rglob("*.png")):
+            self.assertLess(time.monotonic(), end, "the start page has no picture")
+            self.assertIsNone(window.poll())
+            time.sleep(0.2)
 
     def test_octave_reads_a_session(self):
         needs.for_this_test("octave", "octave")

@@ -1,9 +1,10 @@
 #include "new_files.h"
 
-#include <QCoreApplication>
 #include <QDir>
 #include <QFileDialog>
 #include <QProcess>
+
+#include "main_program.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -42,6 +43,8 @@ void NewFiles::make(Kind kind, const QString& folder) {
 }
 
 void NewFiles::run(Kind kind, const QString& path) {
+    const QString dihaptic = main_program();
+    if (dihaptic.isEmpty()) return Q_EMIT failed(main_program_is_missing());
     auto* program = new QProcess(this);
     connect(program, &QProcess::finished, this, [=, this](int code) {
         program->deleteLater();
@@ -50,10 +53,12 @@ void NewFiles::run(Kind kind, const QString& path) {
         Q_EMIT made(kind == Kind::study ? path + "/experiment.yaml" : path);
     });
     connect(program, &QProcess::errorOccurred, this, [this, program](QProcess::ProcessError error) {
-        if (error == QProcess::FailedToStart) Q_EMIT failed(program->errorString());
+        if (error != QProcess::FailedToStart) return;
+        Q_EMIT failed(
+            tr("%1 cannot be started: %2.").arg(program->program(), program->errorString()));
+        program->deleteLater();
     });
-    program->start(QCoreApplication::applicationDirPath() + "/dihaptic",
-                   {"new", word_of(kind), path});
+    program->start(dihaptic, {"new", word_of(kind), path});
 }
 
 }  // namespace dihaptic::gui

@@ -46,7 +46,12 @@ void OperatorWindow::connect_files() {
     connect(start_page_, &StartPage::sessions_requested, this, &OperatorWindow::choose_session);
     connect(start_page_, &StartPage::new_study_requested, this,
             [this] { make_new(NewFiles::Kind::study); });
-    connect(new_files_, &NewFiles::made, this, &OperatorWindow::open);
+    connect(new_files_, &NewFiles::made, this, [this](const QString& file) {
+        remember_folder_of(file);
+        open(file);
+    });
+    connect(start_page_, &StartPage::cannot_draw, this,
+            [this](const QString& why) { log(why, true); });
     connect(new_files_, &NewFiles::failed, this, [this](const QString& why) {
         log(why, true);
         QMessageBox::warning(this, tr("New"), why);

@@ -10,6 +10,7 @@
 
 #include "base/node.h"
 #include "edited_file.h"
+#include "main_program.h"
 #include "session/plan.h"
 
 namespace dihaptic::gui {
@@ -91,6 +92,7 @@ void Shelf::read(const QStringList& files) {
 }
 
 void Shelf::draw_next() {
+    const QString dihaptic = main_program();
     while (!to_draw_.isEmpty()) {
         const QString file = to_draw_.takeFirst();
         const QString picture = picture_of(file);
@@ -98,7 +100,20 @@ void Shelf::draw_next() {
             Q_EMIT drawn(file, picture);
             continue;
         }
+        if (dihaptic.isEmpty()) {
+            to_draw_.clear();
+            return Q_EMIT cannot_draw(
+                tr("There are no pictures of files. %1").arg(main_program_is_missing()));
+        }
         drawing_ = new QProcess(this);
+        connect(drawing_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
+            if (error != QProcess::FailedToStart) return;
+            Q_EMIT cannot_draw(tr("There are no pictures of files: %1 cannot be started: %2.")
+                                   .arg(drawing_->program(), drawing_->errorString()));
+            drawing_->deleteLater();
+            drawing_ = nullptr;
+            to_draw_.clear();
+        });
         connect(drawing_, &QProcess::finished, this, [=, this](int code) {
             drawing_->deleteLater();
             drawing_ = nullptr;
@@ -109,8 +124,7 @@ void Shelf::draw_next() {
         // the picture is not urgent, so the window and other programs have priority; at 19, it
         // would take minutes on a busy computer
         drawing_->setChildProcessModifier([] { setpriority(PRIO_PROCESS, 0, 10); });
-        drawing_->start(QCoreApplication::applicationDirPath() + "/dihaptic",
-                        {"picture", file, "--size", "480x300", "-o", picture});
+        drawing_->start(dihaptic, {"picture", file, "--size", "480x300", "-o", picture});
         return;
     }
 }

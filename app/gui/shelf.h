@@ -31,6 +31,8 @@ class Shelf : public QObject {
     /// ends, or if the file has an error.
     void told(const QString& file, const QString& title, const QString& length);
     void drawn(const QString& file, const QString& picture);
+    /// No pictures can be drawn. `why`: the reason, with its remedy.
+    void cannot_draw(const QString& why);
 
   private:
     void draw_next();

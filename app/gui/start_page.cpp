@@ -84,6 +84,7 @@ StartPage::StartPage(QWidget* parent)
             [this](const QString& file, const QString& title, const QString& length) {
                 each(file, [&](QListWidgetItem& item) { show_file(item, title, length); });
             });
+    connect(&shelf_, &Shelf::cannot_draw, this, &StartPage::cannot_draw);
     connect(&shelf_, &Shelf::drawn, this, [this](const QString& file, const QString& picture) {
         const QPixmap drawn = tile_picture(picture, devicePixelRatioF());
         if (drawn.isNull()) return;

@@ -33,6 +33,8 @@ class StartPage : public QWidget {
     static QStringList recent_files();
 
   Q_SIGNALS:
+    /// The reason why there are no pictures, with its remedy.
+    void cannot_draw(const QString& why);
     void chosen(const QString& file);
     void open_requested();
     void new_study_requested();
