@@ -70,12 +70,17 @@ void OperatorWindow::choose_file() {
     if (!file.isEmpty()) open(file);
 }
 
-/// Offers the folder of the open file or, for a study, the folder that contains its folder.
+/// Offers the folder of the open file or, for a study, the folder that contains its folder, if it
+/// is the user's own.
 void OperatorWindow::make_new(NewFiles::Kind kind) {
     control_.forget_start();  // no session must start while the dialog is open
-    QDir folder =
-        control_.file().isEmpty() ? QDir::home() : QFileInfo(control_.file()).absoluteDir();
-    if (kind == NewFiles::Kind::study && !control_.file().isEmpty()) folder.cdUp();
+    const bool is_study = kind == NewFiles::Kind::study;
+    QDir folder(usual_folder());
+    if (!control_.file().isEmpty()) {
+        QDir now = QFileInfo(control_.file()).absoluteDir();
+        if (is_study) now.cdUp();
+        if (is_own_folder(now.path())) folder = now;
+    }
     new_files_->make(kind, folder.path());
 }
 
