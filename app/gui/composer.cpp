@@ -6,6 +6,7 @@
 #include <QRegularExpression>
 #include <QVBoxLayout>
 
+#include "base/regular_file.h"
 #include "base/text.h"
 #include "base/text_file.h"
 #include "save_dialog.h"
@@ -24,6 +25,16 @@ bool is_text(const QByteArray& content) {
     if (text.startsWith(kByteOrderMark)) text.remove(0, 3);
     text.replace("\r\n", "\n");
     return !find_fault(text.toStdString());
+}
+
+/// Whether a window that ended without saving left text for the file, which may be missing since.
+bool has_draft_left(const QString& file) {
+    try {
+        Draft draft(EditedFile(file).path());
+        return draft.take() && draft.left();
+    } catch (const Error&) {
+        return false;
+    }
 }
 
 /// The line of a text, counted from 1, that contains the byte at position `at`.
@@ -83,6 +94,21 @@ void Composer::forget() {
     end_draft();
     file_ = {};
     edit_->document()->setModified(false);
+}
+
+QString Composer::why_not_to_open(const QString& file) {
+    if (!QFileInfo::exists(file) && has_draft_left(file)) return "";
+    if (!QFileInfo::exists(file))
+        return tr("%1 does not exist. If it was moved, open it where it is now.").arg(file);
+    try {
+        if (is_text(QByteArray::fromStdString(read_bytes(file.toStdString(), kMostYaml))))
+            return "";
+    } catch (const Error& e) {
+        return QString::fromStdString(e.problems().front().text());
+    }
+    return tr("%1 is not UTF-8 text, or contains control characters: it is no scene or experiment. "
+              "Open another file.")
+        .arg(file);
 }
 
 void Composer::open(const QString& file) {

@@ -26,6 +26,8 @@ class Composer : public QWidget {
     explicit Composer(QWidget* parent = nullptr);
     ~Composer() override;
 
+    /// Why a file cannot be opened as a text, with the remedy; "" if it can be.
+    static QString why_not_to_open(const QString& file);
     /// Opens a file; unsaved changes to another file are lost. If the file is already open, checks
     /// its state on disk, and reads it again if another program has changed it and the user has
     /// not.

@@ -179,11 +179,22 @@ void OperatorWindow::leave_text() {
                              : "unsaved text is lost\n");
 }
 
+void OperatorWindow::refuse_to_open(const QString& why) {
+    log(why, true);
+    if (control_.file().isEmpty()) show_start_page();
+    auto* box = new QMessageBox(QMessageBox::Warning, tr("Open"), why, QMessageBox::Close, this);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->open();
+}
+
 void OperatorWindow::open(const QString& file) {
+    if (const QString why = Composer::why_not_to_open(file); !why.isEmpty())
+        return refuse_to_open(why);
     if (!may_leave_text()) return;
     composer_->forget();
     start_page_->rest();
     control_.open(file);
+    setWindowTitle(QFileInfo(file).fileName() + "[*] - Dihaptic");  // until its title is read
     modes_->set(Mode::prepare);
     modes_->set_file(true);
     centre_->setCurrentWidget(scene_);

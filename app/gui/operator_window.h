@@ -96,6 +96,8 @@ class OperatorWindow : public QMainWindow {
     void play_sessions(const QStringList& folders);
     /// Writes the report of a session, and shows it in the browser. `folder`: "" if there is none.
     void report(const QString& folder);
+    /// Says why a file is not opened; what is open stays open.
+    void refuse_to_open(const QString& why);
     void reload();
     /// Shows where a clicked body is defined in the text.
     void pick(size_t body);

@@ -2,10 +2,11 @@
 import glob
 import math
 import pathlib
+import subprocess
 import time
 import unittest
 
-from window import SCENE, Window
+from window import PROGRAM, SCENE, Window
 
 import soak
 
@@ -23,6 +24,37 @@ class Files(Window):
         time.sleep(1.5)
         self.start()
         self.quit()
+
+    def test_that_are_no_text_are_not_opened(self):
+        self.open()
+        title = lambda: self.xdotool("getwindowname", self.name).strip()
+        before = title()
+        binary = pathlib.Path(self.folder.name, "binary.yaml")
+        binary.write_bytes(bytes(range(256)))
+        self.key("ctrl+o")
+        dialog = self.wait("the dialog", lambda: self.dialogs("^Open a scene"))[-1]
+        self.xdotool("windowfocus", dialog)
+        time.sleep(0.5)
+        self.key("ctrl+a")
+        self.type(str(binary))
+        self.key("Return")
+        self.answer("^Open$", "Return")
+        self.assertEqual(title(), before)
+        self.start()
+        self.quit()
+
+    def test_that_is_named_and_does_not_exist_leads_to_the_start_page(self):
+        missing = self.folder.name + "/none.yaml"
+        with open(self.folder.name + "/log", "w+") as self.log:
+            self.window = subprocess.Popen([PROGRAM, "gui", "--out", self.out, missing], env=self.environment,
+                                           stdout=self.log, stderr=self.log)
+            self.addCleanup(self.window.wait)
+            self.addCleanup(self.window.kill)
+            self.wait("the message", lambda: self.dialogs("^Open$"))
+            self.name = self.wait("the window", lambda: self.dialogs("^Dihaptic$"))[-1]
+            self.screenshot("no-such-file")
+            self.answer("^Open$", "Return")
+            self.quit()
 
     def test_that_are_edited_while_they_run_are_shown_after_it(self):
         self.open()

@@ -68,5 +68,14 @@ TEST_F(ComposerTest, LeavesTheFilesOfASessionAsTheyWereRecorded) {
     std::remove(own.toStdString().c_str());
 }
 
+TEST_F(ComposerTest, SaysWhyAFileIsNotOpened) {
+    EXPECT_EQ(Composer::why_not_to_open(write("scene.yaml", "title: one\n")), "");
+    EXPECT_TRUE(Composer::why_not_to_open(write("binary.yaml", std::string("a\0b", 3)))
+                    .contains("is not UTF-8 text"));
+    EXPECT_TRUE(Composer::why_not_to_open(QString::fromStdString(folder_.file("none.yaml")))
+                    .contains("does not exist"));
+    EXPECT_NE(Composer::why_not_to_open(QString::fromStdString(folder_.path())), "");
+}
+
 }  // namespace
 }  // namespace dihaptic::gui::composer_test
