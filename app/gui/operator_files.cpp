@@ -100,6 +100,7 @@ void OperatorWindow::save_as() {
 
 void OperatorWindow::choose_session() {
     auto* dialog = new SessionsDialog(control_.out(), this);
+    dialog->follow(*reporter_);
     connect(dialog, &SessionsDialog::chosen, this, &OperatorWindow::play_sessions);
     connect(dialog, &SessionsDialog::report_requested, this, &OperatorWindow::report);
     dialog->open();
@@ -150,6 +151,7 @@ void OperatorWindow::show_mode(Mode mode) {
 void OperatorWindow::look_at_sessions() {
     auto* list = new SessionsDialog(control_.out());
     list->embed();
+    list->follow(*reporter_);
     connect(list, &SessionsDialog::report_requested, this, &OperatorWindow::report);
     connect(list, &SessionsDialog::chosen, this, &OperatorWindow::play_sessions);
     // opening a session ends the list, as it would end a dialog

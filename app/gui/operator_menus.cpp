@@ -62,6 +62,7 @@ void OperatorWindow::add_recordings(QMenu& menu) {
     menu.addAction(tr("Recorded &sessions ..."), QKeySequence("Ctrl+Shift+O"), this,
                    &OperatorWindow::choose_session);
     reporter_ = new Reporter(this);
+    connect(reporter_, &Reporter::told, this, [this](const QString& text) { log(text); });
     connect(reporter_, &Reporter::failed, this, [this](const QString& why) { log(why, true); });
     connect(reporter_, &Reporter::written, this, [this](const QString& page) {
         log(tr("report: %1").arg(page));
@@ -78,7 +79,6 @@ void OperatorWindow::add_recordings(QMenu& menu) {
 
 void OperatorWindow::report(const QString& folder) {
     if (folder.isEmpty()) return log(tr("There is no session of this file to report yet."));
-    log(tr("The report of %1 is being drawn; the browser shows it.").arg(folder));
     reporter_->write(folder);
 }
 

@@ -13,7 +13,10 @@ Reporter::~Reporter() {
 }
 
 void Reporter::write(const QString& folder) {
-    if (thread_.joinable()) return;
+    if (busy())
+        return Q_EMIT told(
+            tr("A report is still being drawn: try again when the browser shows it."));
+    Q_EMIT told(tr("The report of %1 is being drawn; the browser shows it.").arg(folder));
     thread_ = std::thread([this, folder] {
         QString page;
         QString why;

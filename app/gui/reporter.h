@@ -13,10 +13,14 @@ class Reporter : public QObject {
     using QObject::QObject;
     ~Reporter() override;
 
-    /// Writes the report of the session in `folder`. Only one report is written at a time.
+    /// Writes the report of the session in `folder`. Only one report is written at a time: if
+    /// another is being written, does nothing but tell this.
     void write(const QString& folder);
+    bool busy() const { return thread_.joinable(); }
 
   Q_SIGNALS:
+    /// `text`: what is being done, or why not.
+    void told(const QString& text);
     void written(const QString& page);
     void failed(const QString& why);
 

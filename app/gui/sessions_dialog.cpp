@@ -15,14 +15,18 @@
 
 #include "base/output.h"
 #include "base/regular_file.h"
+#include "base/shell_word.h"
 #include "base/text_file.h"
 #include "note_dialog.h"
 #include "recording/raw_log.h"
 #include "recording/remarks.h"
 #include "recording/seal.h"
 #include "recording/session.h"
+#include "reporter.h"
 #include "rows/lift_row.h"
 #include "rows/trial_row.h"
+#include "session/resume.h"
+#include "sign_label.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -30,6 +34,8 @@ namespace {
 struct SessionColumn {
     enum { started, title, participant, moved_by, state, lasted, trials, lifts, note, folder_name };
 };
+
+constexpr int kAdvice = Qt::UserRole + 1;  // role: what to do about a session
 
 constexpr int kLooked = 20;  // number of sessions after which the column widths are adjusted
 
@@ -79,6 +85,25 @@ QString time_of(const recording::SessionFolder& folder, const recording::Session
     }
 }
 
+/// What to do about a session whose program was killed, or whose disk was full; "" about any other.
+QString advice_for(const recording::SessionFolder& folder, const recording::SessionInfo& info) {
+    if (info.state != recording::SessionState::running) return "";
+    const session::Standing standing = session::standing_of(folder, info);
+    if (!standing.killed) return "";
+    const QString recover =
+        SessionsDialog::tr(
+            "This session broke off before its files were written: its program was "
+            "killed, or its disk was full. In a terminal, dihaptic recover %1 makes "
+            "the files from what was recorded.")
+            .arg(QString::fromStdString(shell_file(folder.path())));
+    if (standing.trials == 0) return recover;
+    return recover + " " +
+           SessionsDialog::tr(
+               "To do the remaining trials, open its experiment and start it (F5) "
+               "with the same participant: the window offers to continue, and makes "
+               "the files too.");
+}
+
 /// Describes, with remedies, changes made since a session's end to those of its tables that are
 /// used in this list.
 QString changes_of(const recording::SessionFolder& folder, const recording::SessionInfo& info) {
@@ -109,6 +134,8 @@ QString notes_of(const QString& session) {
 SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
     : QDialog(parent),
       where_(new QLabel),
+      advice_(new QLabel),
+      report_sign_(new SignLabel(this)),
       participant_(new QLineEdit),
       list_(new QTreeWidget),
       folder_(QDir(folder).absolutePath()) {
@@ -133,7 +160,14 @@ SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
     layout->addWidget(where_);
     layout->addWidget(participant_);
     layout->addWidget(list_, 1);
+    advice_->setWordWrap(true);
+    advice_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    advice_->hide();
+    report_sign_->setWordWrap(true);
+    layout->addWidget(advice_);
+    layout->addWidget(report_sign_);
     layout->addWidget(buttons);
+    connect(list_, &QTreeWidget::currentItemChanged, this, &SessionsDialog::show_advice);
     note_ = buttons->addButton(tr("&Note ..."), QDialogButtonBox::ActionRole);
     note_->setAutoDefault(false);
     note_->setToolTip(tr("Kept in the session's folder, and in its report"));
@@ -163,6 +197,34 @@ void SessionsDialog::embed() {
     close_->hide();
 }
 
+void SessionsDialog::follow(const Reporter& reporter) {
+    const auto show = [this](const QString& word, const QString& text, Sign sign) {
+        report_sign_->set(word, text, sign);
+        report_sign_->set_letter(fontInfo().pixelSize());
+        report_sign_->show();
+    };
+    connect(&reporter, &Reporter::told, this, [this, show](const QString& text) {
+        show(tr("Report"), text, Sign::busy);
+        report_->setEnabled(false);
+    });
+    if (reporter.busy()) show(tr("Report"), tr("A report is being drawn."), Sign::busy);
+    report_->setEnabled(report_->isEnabled() && !reporter.busy());
+    connect(&reporter, &Reporter::written, this, [this, show](const QString& page) {
+        show(tr("Report"), tr("It is drawn, and shown in the browser: %1").arg(page), Sign::idle);
+        report_->setEnabled(true);
+    });
+    connect(&reporter, &Reporter::failed, this, [this, show](const QString& why) {
+        show(tr("There is no report"), why, Sign::fault);
+        report_->setEnabled(true);
+    });
+}
+
+void SessionsDialog::show_advice() {
+    const QTreeWidgetItem* const item = list_->currentItem();
+    advice_->setText(item == nullptr ? "" : item->data(0, kAdvice).toString());
+    advice_->setVisible(!advice_->text().isEmpty());
+}
+
 /// Adds the next session to the list. Only one is added per call, because a running session
 /// requires a responsive window.
 void SessionsDialog::fill_one() {
@@ -173,11 +235,13 @@ void SessionsDialog::fill_one() {
     const QFileInfo entry = waiting_.takeFirst();
     const QString path = entry.filePath();
     recording::SessionInfo info;
-    QString state = tr("cannot be read"), time, changed;
+    QString state = tr("cannot be read"), time, changed, advice;
     try {
         const auto session = recording::SessionFolder::open(path.toStdString());
         info = session.read_info();
         state = in_words(enum_name(info.state));
+        advice = advice_for(session, info);
+        if (!advice.isEmpty()) state = tr("broken off");
         time = time_of(session, info);
         changed = changes_of(session, info);
         if (!changed.isEmpty()) state += tr(", changed since");
@@ -190,8 +254,9 @@ void SessionsDialog::fill_one() {
                 in_words(info.moved_by.name()), state, time, trials_in(path), lifts_in(path),
                 notes_of(path), entry.fileName()});
     item->setToolTip(SessionColumn::note, item->text(SessionColumn::note));
-    item->setToolTip(SessionColumn::state, changed);
+    item->setToolTip(SessionColumn::state, advice.isEmpty() ? changed : advice);
     item->setData(0, Qt::UserRole, path);
+    item->setData(0, kAdvice, advice);
     for (const int number : {SessionColumn::lasted, SessionColumn::trials, SessionColumn::lifts})
         item->setTextAlignment(number, Qt::AlignRight | Qt::AlignVCenter);
     filter(*item);

@@ -13,6 +13,9 @@ class QTreeWidgetItem;
 
 namespace dihaptic::gui {
 
+class Reporter;
+class SignLabel;
+
 class SessionsDialog : public QDialog {
     Q_OBJECT
 
@@ -21,6 +24,8 @@ class SessionsDialog : public QDialog {
     explicit SessionsDialog(const QString& folder, QWidget* parent = nullptr);
     /// Shows the list as a part of a window, which cannot be closed.
     void embed();
+    /// Shows what the reporter does, and why it fails.
+    void follow(const Reporter& reporter);
 
   Q_SIGNALS:
     /// The user chose to view these session folders.
@@ -35,11 +40,15 @@ class SessionsDialog : public QDialog {
     void filter(QTreeWidgetItem& item);
     /// Says why the list is empty, if it is.
     void show_whether_empty();
+    /// Shows what to do about the current session, if anything is to be done.
+    void show_advice();
     void choose();
     /// Asks for a note about a session, and stores it in the session's folder.
     void write_note();
 
     QLabel* where_;
+    QLabel* advice_;
+    SignLabel* report_sign_;  // how far the report is
     QLineEdit* participant_;
     QTreeWidget* list_;
     QPushButton* open_;
