@@ -1,6 +1,7 @@
 #include "code_edit.h"
 
 #include <QAbstractItemView>
+#include <QApplication>
 #include <QHelpEvent>
 #include <QPainter>
 #include <QRegularExpression>
@@ -13,6 +14,7 @@
 #include <algorithm>
 
 #include "indent.h"
+#include "theme.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -20,7 +22,7 @@ namespace {
 constexpr int kMarginSpace = 12;  // [px]
 const QColor kProblem("#d55e00");
 
-/// Colours comments, keys, and quoted text.
+/// Colours comments, keys, and quoted text, so that they can be read in the present theme.
 class Colours final : public QSyntaxHighlighter {
   public:
     using QSyntaxHighlighter::QSyntaxHighlighter;
@@ -31,19 +33,20 @@ class Colours final : public QSyntaxHighlighter {
         static const QRegularExpression quoted(R"("[^"]*"|'[^']*')");
         static const QRegularExpression comment(R"((?:^|\s)#.*$)");
         QTextCharFormat format;
-        format.setForeground(QColor("#0072b2"));
+        const QColor paper = QApplication::palette().color(QPalette::Base);
+        format.setForeground(readable("#0072b2", paper));
         for (auto it = key.globalMatch(text); it.hasNext();) {
             const auto match = it.next();
             setFormat(static_cast<int>(match.capturedStart(1)),
                       static_cast<int>(match.capturedLength(1)), format);
         }
-        format.setForeground(QColor("#007f5c"));
+        format.setForeground(readable("#007f5c", paper));
         for (auto it = quoted.globalMatch(text); it.hasNext();) {
             const auto match = it.next();
             setFormat(static_cast<int>(match.capturedStart()),
                       static_cast<int>(match.capturedLength()), format);
         }
-        format.setForeground(QColor("#808080"));
+        format.setForeground(readable("#808080", paper));
         if (const auto match = comment.match(text); match.hasMatch())
             setFormat(static_cast<int>(match.capturedStart()),
                       static_cast<int>(match.capturedLength()), format);
@@ -70,7 +73,7 @@ CodeEdit::CodeEdit(QWidget* parent)
     font.setStyleHint(QFont::Monospace);
     setFont(font);
     setLineWrapMode(NoWrap);
-    new Colours(document());
+    colours_ = new Colours(document());
     words_->setWidget(this);
     words_->setModel(new QStandardItemModel(words_));
     words_->setCompletionRole(Qt::UserRole);  // inserts only the word itself
@@ -100,6 +103,11 @@ void CodeEdit::lay_out() {
     margin_->setGeometry(area.left(), area.top(), margin_width(), area.height());
 }
 
+void CodeEdit::changeEvent(QEvent* event) {
+    PlainText::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange && colours_ != nullptr) colours_->rehighlight();
+}
+
 void CodeEdit::resizeEvent(QResizeEvent* event) {
     // problems shown below the text make the field smaller, but the current line stays visible
     const bool seen = QRect(QPoint(), event->oldSize()).contains(cursorRect().center());
@@ -110,14 +118,16 @@ void CodeEdit::resizeEvent(QResizeEvent* event) {
 
 void CodeEdit::draw_margin(QPaintEvent& event) {
     QPainter painter(margin_);
-    painter.fillRect(event.rect(), palette().color(QPalette::AlternateBase));
+    const QColor paper = palette().color(QPalette::AlternateBase);
+    painter.fillRect(event.rect(), paper);
     QTextBlock block = firstVisibleBlock();
     double top = blockBoundingGeometry(block).translated(contentOffset()).top();
     for (; block.isValid() && top <= event.rect().bottom(); block = block.next()) {
         const double height = blockBoundingRect(block).height();
         const int line = block.blockNumber() + 1;
-        painter.setPen(problems_.contains(line) ? kProblem
-                                                : palette().color(QPalette::PlaceholderText));
+        painter.setPen(readable(
+            problems_.contains(line) ? kProblem : palette().color(QPalette::PlaceholderText),
+            paper));
         painter.drawText(QRectF(0, top, margin_->width() - kMarginSpace / 2.0, height),
                          Qt::AlignRight, QString::number(line));
         top += height;

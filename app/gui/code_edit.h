@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QCompleter>
+#include <QSyntaxHighlighter>
 #include <map>
 
 #include "base/written.h"
@@ -37,6 +38,7 @@ class CodeEdit : public PlainText {
 
   protected:
     void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;
     bool viewportEvent(QEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
 
@@ -51,6 +53,7 @@ class CodeEdit : public PlainText {
     void take_word(const QModelIndex& word);
 
     QCompleter* words_;
+    QSyntaxHighlighter* colours_ = nullptr;
     WordPlace offered_;    // position for which the word list is shown
     int words_width_ = 0;  // width of the longest entry of the word list [pixels]
     Margin* margin_;

@@ -15,6 +15,7 @@ namespace dihaptic::gui {
 namespace {
 
 constexpr double kShapeContrast = 3.1;  // WCAG 2.1, AA: 3 for shapes
+constexpr double kTextContrast = 4.6;   // WCAG 2.1, AA: 4.5 for text
 
 /// Relative luminance as defined there.
 double luminance(const QColor& colour) {
@@ -149,16 +150,28 @@ QColor tone(Tone tone) {
     return legible(tone == Tone::good ? QColor("#007a55") : QColor("#b3261e"));
 }
 
-QColor legible(const QColor& colour) {
-    const QColor paper = QApplication::palette().color(QPalette::Window);
+namespace {
+
+/// The colour, lighter or darker as far as it must be to have this contrast with the paper.
+QColor contrasting(const QColor& colour, const QColor& paper, double least) {
     const bool dark = paper.lightness() < 128;
     QColor out = colour.toHsl();
     float lightness = out.lightnessF();
-    while (contrast(out, paper) < kShapeContrast && lightness > 0 && lightness < 1) {
+    while (contrast(out, paper) < least && lightness > 0 && lightness < 1) {
         lightness = std::clamp(lightness + (dark ? 0.02F : -0.02F), 0.0F, 1.0F);
         out.setHslF(out.hslHueF(), out.hslSaturationF(), lightness);
     }
     return out.toRgb();
+}
+
+}  // namespace
+
+QColor legible(const QColor& colour) {
+    return contrasting(colour, QApplication::palette().color(QPalette::Window), kShapeContrast);
+}
+
+QColor readable(const QColor& colour, const QColor& paper) {
+    return contrasting(colour, paper, kTextContrast);
 }
 
 QFont sized(QFont font, double by, bool bold) {

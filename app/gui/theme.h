@@ -37,6 +37,8 @@ QColor tone(Tone tone);
 /// A colour of the data, lighter or darker as far as it must be to stand out from the theme's
 /// background.
 QColor legible(const QColor& colour);
+/// The same for a text on `paper`, which needs more contrast.
+QColor readable(const QColor& colour, const QColor& paper);
 
 /// Spacings [pixels].
 namespace space {

@@ -9,12 +9,15 @@
 #include <QLineEdit>
 #include <QPalette>
 #include <QRadioButton>
+#include <QTextBlock>
+#include <QTextLayout>
 #include <QToolButton>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "base/palette.h"
+#include "code_edit.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -59,6 +62,28 @@ TEST_P(ThemeTest, TextsCanBeRead) {
                                      {QPalette::Link, QPalette::Base}}) {
         EXPECT_GE(contrast(colour(ink), colour(paper)), kText) << ink << " on " << paper;
     }
+}
+
+/// The smallest contrast of a coloured piece of the text with its background.
+double least_contrast_in(CodeEdit& edit) {
+    double least = 21;
+    const QColor paper = QApplication::palette().color(QPalette::Base);
+    for (QTextBlock block = edit.document()->begin(); block.isValid(); block = block.next()) {
+        for (const auto& range : block.layout()->formats())
+            least = std::min(least, contrast(range.format.foreground().color(), paper));
+    }
+    return least;
+}
+
+TEST_P(ThemeTest, ColoursOfAFilesTextCanBeRead) {
+    CodeEdit edit;
+    edit.setPlainText("key: 'quoted'  # comment\n");
+    QCoreApplication::processEvents();
+    EXPECT_LT(least_contrast_in(edit), 20) << "nothing is coloured";
+    EXPECT_GE(least_contrast_in(edit), kText);
+    set_dark(!GetParam());
+    QCoreApplication::processEvents();
+    EXPECT_GE(least_contrast_in(edit), kText) << "after a change of the theme";
 }
 
 TEST_P(ThemeTest, SignsCanBeReadAndToldApart) {
