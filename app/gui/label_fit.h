@@ -1,8 +1,11 @@
 // Sizes a label that overlays the scene to fit its text, wrapping it onto several lines if
-// necessary.
+// necessary; and finds the room that a screen has for a window.
 #pragma once
 
+#include <QApplication>
 #include <QLabel>
+#include <QScreen>
+#include <QStyle>
 
 namespace dihaptic::gui {
 
@@ -17,6 +20,16 @@ inline void fit_label(QLabel& label, int widest) {
     label.setWordWrap(true);
     label.setFixedWidth(widest);
     label.adjustSize();
+}
+
+/// The largest size of a window, without its frame, of which `beside` fit next to each other on the
+/// screen. The frame is not known before the window is shown, so that room for a usual one is kept.
+inline QSize room_on(const QScreen& screen, int beside = 1) {
+    const QStyle& style = *QApplication::style();
+    constexpr int kEdge = 8;  // [pixels]
+    const int title = style.pixelMetric(QStyle::PM_TitleBarHeight) + 2 * kEdge;
+    const QSize all = screen.availableSize();
+    return {all.width() / beside - 2 * kEdge, all.height() - title - kEdge};
 }
 
 }  // namespace dihaptic::gui

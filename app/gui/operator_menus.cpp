@@ -14,6 +14,7 @@
 #include <QUrl>
 
 #include "help_page.h"
+#include "label_fit.h"
 #include "layers_menu.h"
 #include "reporter.h"
 #include "theme.h"
@@ -257,7 +258,7 @@ void OperatorWindow::make_help_menu() {
 void OperatorWindow::restore() {
     const QSettings settings;
     if (!restoreGeometry(settings.value("geometry").toByteArray()))
-        resize(QSize(1400, 900).boundedTo(screen()->availableSize()));
+        resize(QSize(1400, 900).boundedTo(room_on(*screen())));
     restoreState(settings.value("docks").toByteArray());
     modes_->restore();
 }

@@ -23,6 +23,7 @@
 #include "film.h"
 #include "help_page.h"
 #include "icons.h"
+#include "label_fit.h"
 #include "layers_menu.h"
 #include "moment_list.h"
 #include "recording/log_scene.h"
@@ -100,7 +101,7 @@ SessionPlayer::SessionPlayer(const std::string& folder, QWidget* parent)
     connect(chart_, &TimeChart::stretch_changed, this, [this] { read_.start(120); });
     connect(&read_, &QTimer::timeout, this, &SessionPlayer::read_curves);
     connect(&timer_, &QTimer::timeout, this, &SessionPlayer::go_on);
-    resize(QSize(1200, 860).boundedTo(screen()->availableSize()));
+    resize(QSize(1200, 860).boundedTo(room_on(*screen())));
     choose_curves({"grip_force", "load_force"});
     go_to(log_.begin());
     view_->setFocus();
@@ -464,8 +465,9 @@ void open_sessions(const QStringList& folders) {
             player->set_together(true);
             // half a screen has no room for the list of moments; the View menu can show it again
             for (QDockWidget* dock : player->findChildren<QDockWidget*>()) dock->hide();
-            player->resize(room.width() / 2, room.height());
-            player->move(i == 0 ? room.left() : room.right() + 1 - player->width(), room.top());
+            player->resize(room_on(*player->screen(), 2));
+            // a position is that of the frame
+            player->move(room.left() + (i == 0 ? 0 : room.width() / 2), room.top());
         }
         player->show();
     }
