@@ -49,7 +49,7 @@ Composer::Composer(QWidget* parent)
       edit_(new CodeEdit),
       find_(new FindBar(*edit_)),
       state_(new QLabel),
-      save_(new QPushButton(tr("Sa&ve"))) {
+      save_(new QPushButton(tr("Save"))) {
     edit_->setAccessibleName(tr("File's text"));
     state_->setWordWrap(true);
     state_->setTextInteractionFlags(Qt::TextSelectableByMouse);

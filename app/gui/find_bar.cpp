@@ -22,8 +22,8 @@ FindBar::FindBar(QPlainTextEdit& text, QWidget* parent)
         connect(button, &QPushButton::clicked, this, done);
         layout->addWidget(button);
     };
-    add_button(tr("&Previous"), tr("Ctrl+Shift+G"), [this] { find(true); });
-    add_button(tr("&Next"), tr("Ctrl+G, or Enter"), [this] { find(); });
+    add_button(tr("Previous"), tr("Ctrl+Shift+G"), [this] { find(true); });
+    add_button(tr("Next"), tr("Ctrl+G, or Enter"), [this] { find(); });
     add_button(tr("Close"), tr("Escape"), [this] { leave(); });
     connect(words_, &QLineEdit::returnPressed, this, [this] { find(); });
     connect(words_, &QLineEdit::textEdited, this, [this] {

@@ -73,7 +73,7 @@ void SessionPanel::make_form() {
     form_->addRow(tr("File"), file_row_);
     form_->addRow(tr("&Rig"), rig_);
     form_->addRow(tr("Partici&pant"), participant_);
-    form_->addRow(tr("&Hand moved by"), hand_);
+    form_->addRow(tr("H&and moved by"), hand_);
     form_->addRow(tr("Pace"), pace_);
     connect(open_, &QPushButton::clicked, this, &SessionPanel::open_requested);
     connect(rig_, &QComboBox::activated, this, &SessionPanel::choice_changed);

@@ -12,7 +12,7 @@ from window import Participants, SLOWNESS, Window
 class Sessions(Window):
     def test_run_a_script_to_its_end(self):
         self.open()
-        self.key("alt+h", "Down")
+        self.key("alt+a", "Down")
         self.start()
         time.sleep(1.5)
         self.screenshot("script")
@@ -54,7 +54,7 @@ class Trials(Participants):
         self.key("alt+v", "s")
         time.sleep(0.5)
         self.xdotool("windowfocus", self.name)
-        self.key("alt+h", "Down")
+        self.key("alt+a", "Down")
         time.sleep(1)
         self.ask()
         self.screenshot("participant")

@@ -45,7 +45,7 @@ class Headset(Participants):
         self.key("alt+v", "s")
         self.wait("a picture", lambda: (self.pictures / "right.ppm").exists())
         self.xdotool("windowfocus", self.name)
-        self.key("alt+h", "Down")  # the script moves the hand
+        self.key("alt+a", "Down")  # the script moves the hand
 
     def keep(self, name):
         """A picture that can be looked at."""

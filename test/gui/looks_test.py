@@ -52,7 +52,7 @@ class Looks(Window):
         self.open()
         for layer in "hfcgape":
             self.key("alt+v", layer)
-        self.key("alt+h", "Down")
+        self.key("alt+a", "Down")
         self.key("F5")
         time.sleep(4)
         self.screenshot("layers")

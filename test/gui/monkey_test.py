@@ -23,7 +23,7 @@ SEED = int(os.environ.get("DIHAPTIC_SEED", 1))
 KEYS = """F4 F5 F5 F5 F6 F6 F7 F8 F9 F10 Escape Return Return Tab Tab shift+Tab Up Down Left Right Prior Next Home End BackSpace
 space h v y 1 2 a s x comma minus period ctrl+e ctrl+e ctrl+z ctrl+shift+z ctrl+s ctrl+r ctrl+period ctrl+a ctrl+c ctrl+v
 ctrl+v ctrl+x ctrl+space shift+Insert ctrl+shift+o ctrl+Home ctrl+End ctrl+Up ctrl+shift+Left ctrl+plus alt+Left alt+Prior
-shift+Up ctrl+t ctrl+1 ctrl+2 ctrl+3 alt+f alt+s alt+v alt+h alt+n alt+g alt+d alt+o F1""".split()
+shift+Up ctrl+t ctrl+1 ctrl+2 ctrl+3 alt+f alt+s alt+v alt+h alt+a alt+n alt+g alt+d alt+o F1""".split()
 #: Dialogs in which a monkey could name any file of this machine.
 CHOOSES_FILES = "^(Open a scene|Save|Where sessions go)"
 

@@ -11,7 +11,7 @@ import soak
 class Person(Participants):
     def choose(self, pace):
         """A simulated person, whose time goes by at this pace."""
-        self.key("alt+h")
+        self.key("alt+a")
         self.xdotool("type", "--delay", "50", "a s")
         time.sleep(1.5)  # meanwhile the file is read again; letters typed after this start a new word
         self.key("Tab")

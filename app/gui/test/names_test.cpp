@@ -3,16 +3,21 @@
 
 #include <QApplication>
 #include <QComboBox>
+#include <QLabel>
+#include <QPushButton>
 #include <QTemporaryDir>
+#include <map>
 #include <set>
 
 #include "base/field_table.h"
 #include "column_words.h"
+#include "composer.h"
 #include "frame/knobs.h"
 #include "frame/settings.h"
 #include "rows/lift_row.h"
 #include "rows/trial_row.h"
 #include "session_panel.h"
+#include "tuning_panel.h"
 
 namespace dihaptic::gui::names_test {
 namespace {
@@ -72,6 +77,33 @@ TEST(Names, OfWhatMovesTheHandAreThoseOfTheTables) {
             QString::fromStdString(std::string(enum_name(mover))).replace('_', ' ');
         EXPECT_EQ(choices.filter(words).size(), 1) << words.toStdString();
     }
+}
+
+TEST(Names, HaveALetterOfTheirOwnWithAlt) {
+    int count = 1;
+    char name[5] = "test";
+    char* names[2] = {name, nullptr};
+    qputenv("QT_QPA_PLATFORM", "offscreen");
+    const QApplication application(count, names);
+    const QTemporaryDir folder;
+    std::atomic<bool> stop{false};
+    SessionControl control(folder.filePath("sessions"), 0, stop);
+    const SessionPanel panel(control);
+    const TuningPanel tuning;
+    const Composer composer;
+    std::map<QChar, QString> seen{
+        {'f', "File"}, {'e', "Edit"}, {'s', "Session"}, {'v', "View"}, {'h', "Help"}};
+    const auto take = [&](const QString& text) {
+        const qsizetype at = text.indexOf('&');
+        if (at < 0) return;
+        const auto [one, is_new] = seen.emplace(text[at + 1].toLower(), text);
+        EXPECT_TRUE(is_new) << text.toStdString() << ", " << one->second.toStdString();
+    };
+    for (const QWidget* shown : std::initializer_list<const QWidget*>{&panel, &tuning, &composer}) {
+        for (const QLabel* label : shown->findChildren<QLabel*>()) take(label->text());
+        for (const auto* button : shown->findChildren<QPushButton*>()) take(button->text());
+    }
+    EXPECT_GE(seen.size(), 15u);
 }
 
 }  // namespace
