@@ -21,8 +21,11 @@ constexpr int kStatus = 12;        // width of the column [characters]
 constexpr int kLoadBar = 48;       // width of the column [pixels]
 constexpr int kWidestTable = 400;  // the table takes no more room from the panel beside it [pixels]
 
-QString words(uint32_t status) {
-    return status == 0 ? QObject::tr("OK") : QString::fromStdString(dihaptic::words(status));
+/// `finger`: status of a finger's device; `all`: status of the frame, in which any device may have
+/// switched force off.
+QString words(uint32_t finger, uint32_t all) {
+    if (finger != 0) return QString::fromStdString(dihaptic::words(finger));
+    return (all & kForceOff) != 0 ? QObject::tr("force off") : QObject::tr("OK");
 }
 
 }  // namespace
@@ -96,6 +99,7 @@ void DevicePanel::rest(const QString& why) {
     for (int i = 0; i < table_->rowCount(); ++i) {
         show_force(i, 0);
         table_->item(i, DeviceColumn::status)->setText(why);
+        table_->item(i, DeviceColumn::status)->setToolTip(why);
     }
 }
 
@@ -104,7 +108,7 @@ void DevicePanel::show_frame(const frame::Frame& frame) {
         const frame::FingerFrame& finger = frame.fingers[i];
         show_force(static_cast<int>(i), finger.f_sent_W.norm());
         QTableWidgetItem* status = table_->item(static_cast<int>(i), DeviceColumn::status);
-        status->setText(words(finger.status));
+        status->setText(words(finger.status, frame.status));
         status->setToolTip(status->text());  // the words of several faults are longer than a column
     }
     if (frame.status & kOverrun) ++overruns_;

@@ -381,7 +381,7 @@ void SessionControl::refresh() {
     if (const QString told = runner_.take_told(); !told.isEmpty()) {
         complaint_ = told;
         log(told, true);
-        Q_EMIT rested(tr("fault: force off"));
+        Q_EMIT rested(tr("force off: fault"));
         Q_EMIT changed();
     }
     while (const auto sample = runner_.take_sample()) Q_EMIT sampled(*sample);
