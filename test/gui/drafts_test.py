@@ -114,6 +114,7 @@ class Drafts(Window):
         os.remove(self.scene)
         time.sleep(1.5)
         self.screenshot("gone")
+        self.key("ctrl+e")  # hides the text, which edit() shows
         self.edit()
         self.key("ctrl+s")
         self.wait("the file", lambda: os.path.exists(self.scene) and self.scene_text() == "# mine " + SCENE)
