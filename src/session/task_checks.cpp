@@ -175,10 +175,10 @@ bool is_used(std::string_view text, const std::string& factor) {
     return false;
 }
 
-/// Whether a level of the factor is also the name of a condition, which says what it changes.
-bool names_conditions(const task::Task& task, const task::Factor& factor) {
-    return std::ranges::any_of(task.conditions, [&](const task::Condition& condition) {
-        return std::ranges::count(factor.levels, condition.name) > 0;
+/// Whether the file names a condition like a level of the factor, to say what that level changes.
+bool names_conditions(std::string_view text, const task::Factor& factor) {
+    return std::ranges::any_of(factor.levels, [&](const std::string& level) {
+        return count_of(text, "name: " + level) > 0;
     });
 }
 
@@ -198,7 +198,7 @@ void check_uses(const task::Task& task, Diagnostics& diagnostics) {
                                 "Give it several levels, or leave it out.");
             continue;
         }
-        if (is_used(text, factor.factor) || names_conditions(task, factor)) continue;
+        if (is_used(text, factor.factor) || names_conditions(text, factor)) continue;
         diagnostics.warning(factor.place, factor.factor,
                             "is a factor that nothing in this file uses: trials of its levels are "
                             "all the same",

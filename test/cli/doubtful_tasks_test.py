@@ -89,7 +89,7 @@ class DoubtfulTasks(unittest.TestCase):
     def test_a_factor_whose_level_names_a_condition_is_used(self):
         text = TASK.replace("  regions:", "  cross: [{ factor: place, levels: [near, far] }]\n  conditions:\n"
                             "    - { name: far, regions: [{ name: target, position_mm: [0, 80, 120], radius_mm: 10 }] }\n  regions:", 1)
-        self.assertNotIn("warning", self.check(text).stderr)
+        self.assertNotIn("warning", self.check(text).stdout)
 
     def test_fields_that_oppose_each_other_are_doubted(self):
         text = perturbed("{}").replace("damping_Ns_m: 10", "damping_Ns_m: 10 * side").replace(" profile: {},", "").replace(
@@ -97,16 +97,16 @@ class DoubtfulTasks(unittest.TestCase):
             "  measures: [adaptation_index, channel_force]\n  movement: { of: index, from: start, to: target, during: [reach] }\n"
             "  regions:", 1).replace("  perturbations: [", "  perturbations: [{ name: wall, field: { kind: channel, on: index, "
             "from: start, to: target, stiffness_N_m: 1000, damping_Ns_m: 10 } }, ")
-        self.assertIn("whose direction differs between trials", self.check(text).stderr)
-        self.assertNotIn("direction differs", self.check(text.replace("10 * side", "10 * (side + 2)")).stderr)
+        self.assertIn("whose direction differs between trials", self.check(text).stdout)
+        self.assertNotIn("direction differs", self.check(text.replace("10 * side", "10 * (side + 2)")).stdout)
 
     def test_a_push_at_the_go_signal_is_doubted(self):
         text = perturbed("{}").replace(FIELD, "during: [reach], field: { kind: constant, on: index, force_N: [1, 0, 0] }")
         text = text.replace(" profile: {},", "").replace("  regions:", "  measures: [reaction_time]\n"
                             "  movement: { of: index, from: start, to: target, during: [reach] }\n  regions:", 1)
-        self.assertIn("pushes the hand from the moment at which 'reach' begins", self.check(text).stderr)
+        self.assertIn("pushes the hand from the moment at which 'reach' begins", self.check(text).stdout)
         for part in ("during: [wait, reach], field", "profile: { delay_s: 1 }, during: [reach], field"):
-            self.assertNotIn("from the moment", self.check(text.replace("during: [reach], field", part)).stderr, part)
+            self.assertNotIn("from the moment", self.check(text.replace("during: [reach], field", part)).stdout, part)
 
     def test_numbers_without_a_value_are_refused(self):
         for condition, told in (("sqrt(0 - 1) > 1", "made of numbers alone, that is not a number"),
