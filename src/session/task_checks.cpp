@@ -175,10 +175,14 @@ bool is_used(std::string_view text, const std::string& factor) {
     return false;
 }
 
-/// Whether the file names a condition like a level of the factor, to say what that level changes.
-bool names_conditions(std::string_view text, const task::Factor& factor) {
-    return std::ranges::any_of(factor.levels, [&](const std::string& level) {
-        return count_of(text, "name: " + level) > 0;
+/// Whether a condition that is named like a level of the factor says what that level changes.
+/// Conditions that 'cross' generates have such names, too, but change nothing themselves.
+bool extends_condition(const task::Task& task, const task::Factor& factor) {
+    return std::ranges::any_of(task.conditions, [&](const task::Condition& condition) {
+        const bool changes = !condition.object.empty() || !condition.places.empty() ||
+                             !condition.regions.empty() || !condition.perturbations.empty() ||
+                             !condition.look.empty();
+        return changes && std::ranges::count(factor.levels, condition.name) > 0;
     });
 }
 
@@ -198,7 +202,7 @@ void check_uses(const task::Task& task, Diagnostics& diagnostics) {
                                 "Give it several levels, or leave it out.");
             continue;
         }
-        if (is_used(text, factor.factor) || names_conditions(text, factor)) continue;
+        if (is_used(text, factor.factor) || extends_condition(task, factor)) continue;
         diagnostics.warning(factor.place, factor.factor,
                             "is a factor that nothing in this file uses: trials of its levels are "
                             "all the same",
