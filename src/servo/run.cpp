@@ -110,7 +110,7 @@ struct RealLoop {
     /// follows.
     bool tick(Time due, Time now, Steady::time_point begin) noexcept {
         const double lateness = seconds(begin - (start + due));
-        servo.note_timing(lateness, last_tick, overrun);
+        servo.note_timing({lateness, last_tick, overrun});
         const frame::Frame& frame = servo.tick(now, director);
         if (sink) sink(frame);
         if ((frame.status & kLate) != 0 && !servo.real()) {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "haptics/late_loop.h"
-
 namespace dihaptic::servo {
 namespace {
 
@@ -49,12 +47,6 @@ void scale_friction(double scale, dynamics::World& world) noexcept {
     if (!frame::Knobs::same(scale, world.friction_scale())) world.set_friction_scale(scale);
 }
 
-bool any_force_dropped(std::span<const devices::Reading> readings) noexcept {
-    return std::any_of(readings.begin(), readings.end(), [](const devices::Reading& reading) {
-        return (reading.status & kForceDropped) != 0;
-    });
-}
-
 }  // namespace
 
 Servo::Servo(const scene::Scene& scene, const frame::Settings& settings,
@@ -63,22 +55,14 @@ Servo::Servo(const scene::Scene& scene, const frame::Settings& settings,
     : settings_(settings),
       period_(from_seconds(settings.tick())),
       world_(scene, settings.dynamics),
-      devices_(std::move(devices)),
+      link_(std::move(devices), scene.fingers, settings.safety),
       turn_(X_WD),
-      late_(period_),
-      damping_(std::numeric_limits<double>::infinity()),
+      late_(settings),
       in_force_(settings.coupling),
       soft_start_(settings.safety.soft_start) {
     for (size_t i = 0; i < scene.fingers.size(); ++i) {
-        const frame::DeviceInfo& info = devices_->info(static_cast<int>(i));
-        const frame::SafetySettings& safety = settings.safety;
-        real_ = real_ || !info.simulated;
-        damping_ = std::min(damping_, info.damping > 0 ? info.damping : haptics::kLooseDamping);
-        if (safety.hand_damping) damping_ = *safety.hand_damping;
-        devices_->limit(static_cast<int>(i), safety.largest_force(info.peak_force, info.scale),
-                        safety.largest_torque(info.peak_torque));
-        if (scene.fingers[i].name == settings.safety.dead_man_finger)
-            dead_man_ = static_cast<int>(i);
+        const frame::DeviceInfo& info = link_.info(i);
+        late_.add(info);
         const scene::Finger& finger = scene.fingers[i];
         const scene::ProxyKind kind = settings.proxy.of(finger.proxy);
         if (info.measures_orientation) turning_.push_back(i);
@@ -94,14 +78,7 @@ Servo::Servo(const scene::Scene& scene, const frame::Settings& settings,
         if (changeable) loops_[i].spare.emplace(make_finger(scene, i, proxy, other_than(kind)));
     }
     commands_.knobs = frame::Knobs::of(settings);
-    const size_t n = loops_.size();
-    readings_.resize(n);
-    handles_.resize(n);
-    sent_D_.resize(n);
-}
-
-Servo::~Servo() {
-    deactivate();
+    handles_.resize(loops_.size());
 }
 
 /// A point proxy with friction of the kind "apart" cannot turn a body.
@@ -113,7 +90,7 @@ bool Servo::turns_with_handle(scene::ProxyKind kind) const noexcept {
 haptics::Finger Servo::make_finger(const scene::Scene& scene, size_t finger,
                                    dynamics::BodyIndex proxy, scene::ProxyKind kind) const {
     const scene::Finger& of = scene.fingers[finger];
-    const frame::DeviceInfo& info = devices_->info(static_cast<int>(finger));
+    const frame::DeviceInfo& info = link_.info(finger);
     const auto made = [&] {
         if (kind == scene::ProxyKind::rigid) {
             return haptics::Finger(of, proxy, settings_.coupling,
@@ -154,8 +131,7 @@ void Servo::activate() {
     frame_.sequence = -1;
     reserve(frame_);
     commands_.task.reserve({frame_.bodies.size(), frame_.fingers.size()});
-    devices_->activate();
-    active_ = true;
+    link_.activate();
     stopped_ = false;
 }
 
@@ -169,19 +145,11 @@ void Servo::reserve(frame::Frame& frame) const {
     frame.contacts.reserve(64 + 8 * static_cast<size_t>(world_.size()));
 }
 
-void Servo::rest() noexcept {
-    std::fill(sent_D_.begin(), sent_D_.end(), Wrench{});
-    devices_->write(sent_D_);
-}
-
 void Servo::resume() {
     // devices that the watchdog stopped in the last tick before a pause are still stopped
-    const bool were_stopped = stopped_from_outside_.exchange(false);
+    const bool were_stopped = link_.take_stop();
     if (faults_.tripped() || were_stopped) {
-        devices_->deactivate();
-        active_ = false;
-        devices_->activate();
-        active_ = true;
+        link_.reactivate();
         // positions computed from a value that was not a number are lost
         const haptics::FaultKind kind = faults_.fault().kind;
         anew_ = world_.diverged() || kind == haptics::FaultKind::not_finite;
@@ -189,7 +157,7 @@ void Servo::resume() {
         faults_ = {};
     }
     for (size_t i = 0; i < loops_.size(); ++i) {
-        const double scale = devices_->info(static_cast<int>(i)).scale;
+        const double scale = link_.info(i).scale;
         loops_[i].handle_guard = haptics::HandleGuard(settings_.safety.max_speed * scale);
         loops_[i].force_guard.restart();
     }
@@ -198,22 +166,6 @@ void Servo::resume() {
     stopped_ = false;
     resting_ = false;
     resumed_ = true;
-}
-
-void Servo::deactivate() {
-    if (!active_) return;
-    rest();
-    devices_->deactivate();
-    active_ = false;
-}
-
-bool Servo::stop_devices() noexcept {
-    stopped_from_outside_ = true;
-    return devices_->can_stop() && devices_->stop();
-}
-
-void Servo::note_timing(double lateness, double last_tick, bool overrun) noexcept {
-    timing_ = {lateness, last_tick, overrun};
 }
 
 const frame::Frame& Servo::tick(Time now, const frame::Director& director) noexcept {
@@ -228,7 +180,7 @@ const frame::Frame& Servo::tick(Time now, const frame::Director& director) noexc
     const dynamics::StepStatus step = advance_world();
     if (world_.diverged()) faults_.trip({haptics::FaultKind::diverged, -1, now});
     make_forces(now);
-    devices_->write(sent_D_);
+    link_.write();
     make_frame(now, commands_, step);
     const bool grace_over = faults_.tripped() && now - faults_.fault().time >= kGrace;
     const bool over =
@@ -263,28 +215,29 @@ dynamics::StepStatus Servo::advance_world() noexcept {
 }
 
 void Servo::measure(Time now) noexcept {
-    devices_->read(now, readings_);
+    link_.read(now);
     const double elapsed = frame_.sequence < 0 ? 0 : seconds(now - frame_.time);
-    judge_lateness(now, elapsed);
+    late_.judge(now, elapsed, frame_.sequence < 0);
     // a device reports one position per period, even if two ticks come closer together
     const double moved_for = elapsed > 0 ? std::max(elapsed, settings_.tick()) : 0;
-    if ((real_ && lateness_fault_) || faults_.tripped()) turn_.stop();
+    if ((late_.is_real() && late_.fault()) || faults_.tripped()) turn_.stop();
     turn_.advance(elapsed);
     for (size_t i = 0; i < loops_.size(); ++i) {
         Loop& loop = loops_[i];
         const Quat& R_0D = loop.X_0D.R;
-        frame::Handle read{loop.X_0D * readings_[i].p_DH, R_0D * readings_[i].v_DH};
-        const bool orientation = devices_->info(static_cast<int>(i)).measures_orientation;
+        const devices::Reading& reading = link_.reading(i);
+        frame::Handle read{loop.X_0D * reading.p_DH, R_0D * reading.v_DH};
+        const bool orientation = link_.info(i).measures_orientation;
         if (orientation) {
             // the same rotation, expressed in the world's axes
-            read.R_WH = R_0D * readings_[i].R_DH * R_0D.conjugate();
-            read.w_WH = R_0D * readings_[i].w_DH;
+            read.R_WH = R_0D * reading.R_DH * R_0D.conjugate();
+            read.w_WH = R_0D * reading.w_DH;
         }
         haptics::Fault fault;
         fault.device = static_cast<int>(i);
         fault.time = now;
         const frame::Handle before = loop.unturned;
-        loop.unturned = loop.handle_guard.accept(read, reported_by(readings_[i]), moved_for, fault);
+        loop.unturned = loop.handle_guard.accept(read, reported_by(reading), moved_for, fault);
         loop.move = {loop.unturned.p_WH - before.p_WH,
                      rotation_vector(loop.unturned.R_WH * before.R_WH.conjugate())};
         loop.device_fault = fault.kind;
@@ -297,14 +250,30 @@ void Servo::measure(Time now) noexcept {
     }
     anew_ = false;
     // judged after the devices' reports, which say more than the pauses that they cause
-    if (real_) faults_.trip(lateness_fault_);
+    if (late_.is_real()) faults_.trip(late_.fault());
+}
+
+void Servo::retune() noexcept {
+    const frame::CouplingSettings next =
+        late_.softened(commands_.knobs.coupled(settings_.coupling));
+    if (next == in_force_) return;
+    in_force_ = next;
+    for (Loop& loop : loops_) loop.finger.retune(in_force_);
+}
+
+void Servo::bound_rise(size_t finger, double share) noexcept {
+    Force& force = loops_[finger].force;
+    const Wrench asked = force.felt_0;
+    force.felt_0 = late_.bounded(asked, force.last_0, loops_[finger].move, share, in_force_);
+    if (force.felt_0.force != asked.force || force.felt_0.torque != asked.torque)
+        force.status |= kSoftened;
 }
 
 void Servo::turn_workspaces(double rate) noexcept {
     if (faults_.tripped()) {
         turn_.stop();
     } else {
-        turn_.order(rate, std::max(elapsed_, settings_.tick()));
+        turn_.order(rate, std::max(late_.elapsed(), settings_.tick()));
     }
     if (turn_.rate() == 0 && frame_.workspace_rate == 0) return;
     for (const Loop& loop : loops_) loop.finger.carry(world_, turn_.R(), turn_.angular_velocity());
@@ -313,10 +282,8 @@ void Servo::turn_workspaces(double rate) noexcept {
 void Servo::make_forces(Time now) noexcept {
     bool asked = false;
     const bool stepped = steps_now();
-    // if a late loop makes a simulated hand shake, nobody is harmed
-    const bool waits = !real_ && late_.sustained() > 0;
     const auto judge_shaking = [&](haptics::FaultKind kind, size_t i, double by) {
-        if (by > 0 && !waits) faults_.trip({kind, static_cast<int>(i), now, by});
+        if (by > 0 && !late_.is_harmless()) faults_.trip({kind, static_cast<int>(i), now, by});
     };
     for (size_t i = 0; i < loops_.size(); ++i) {
         Loop& loop = loops_[i];
@@ -336,10 +303,10 @@ void Servo::make_forces(Time now) noexcept {
         force.felt_0.force += loop.force_guard.push(loop.unturned, force.status);
         asked = asked || !force.felt_0.is_zero();
     }
-    const bool held = switch_held();
+    const bool held = link_.switch_held();
     // if a device drops its force, only half a grasp is left, so all forces stay off until they can
     // return gently
-    const bool allowed = held && !any_force_dropped(readings_) && !commands_.rest;
+    const bool allowed = held && !link_.any_force_dropped() && !commands_.rest;
     const double rising = soft_start_.share(allowed, asked, settings_.tick());
     const double share = resumed_ ? 0 : rising;  // zero after a pause, even without a soft start
     for (size_t i = 0; i < loops_.size(); ++i) {
@@ -360,7 +327,7 @@ void Servo::make_forces(Time now) noexcept {
             loop.force_guard.drop();
         }
         const Wrench& sent_0 = loop.force.sent_0;
-        sent_D_[i] = {loop.X_D0.R * sent_0.force, loop.X_D0.R * sent_0.torque};
+        link_.set(i, {loop.X_D0.R * sent_0.force, loop.X_D0.R * sent_0.torque});
         loop.force.sent_W = turn_.turned(sent_0);
     }
 }
@@ -430,13 +397,6 @@ void Servo::add_loads(size_t finger, Wrench& felt_W) const noexcept {
     }
     felt_W.force += sum.force;
     if (sum.torque != Vec3::Zero()) felt_W.torque += sum.torque;
-}
-
-bool Servo::switch_held() const noexcept {
-    if (settings_.safety.dead_man_finger.empty()) return true;
-    if (dead_man_ < 0) return false;  // without a switch, it counts as not held
-    const devices::Reading& reading = readings_[static_cast<size_t>(dead_man_)];
-    return (reading.buttons >> settings_.safety.dead_man_button & 1u) != 0;
 }
 
 }  // namespace dihaptic::servo

@@ -114,12 +114,12 @@ void Servo::make_frame(Time now, const frame::Commands& commands,
     frame_.phase = commands.phase;
     frame_.task = commands.task;
     frame_.status = step_status(step, world_);
-    if (timing_.overrun) frame_.status |= kOverrun;
+    if (late_.timing().overrun) frame_.status |= kOverrun;
     if (std::exchange(resumed_, false)) frame_.status |= kResumed;
     if (commands.rest) frame_.status |= kPaused;
     if (faults_.tripped()) frame_.status |= kForceOff;
     if (faults_.fault().time == now) frame_.status |= fault_status(faults_.fault().kind);
-    if (!real_) frame_.status |= fault_status(lateness_fault_.kind);
+    if (!late_.is_real()) frame_.status |= fault_status(late_.fault().kind);
     if (in_force_.stiffness < commands.knobs.stiffness) frame_.status |= kSoftened;
     static_cast<frame::Knobs&>(frame_) = commands.knobs;  // corrected below where necessary
     frame_.set_coupling(in_force_);
@@ -127,15 +127,15 @@ void Servo::make_frame(Time now, const frame::Commands& commands,
     note_balance(world_.balance(), frame_);
     frame_.workspace_turn = turn_.angle();
     frame_.workspace_rate = turn_.rate();
-    frame_.lateness = timing_.lateness;
-    frame_.tick_duration = timing_.last_tick;
+    frame_.lateness = late_.timing().lateness;
+    frame_.tick_duration = late_.timing().last_tick;
     for (size_t i = 0; i < loops_.size(); ++i) {
         frame::FingerFrame& out = frame_.fingers[i];
         const haptics::ProxyTouch& touch = loops_[i].finger.touch();
-        out.buttons = readings_[i].buttons;
-        out.status =
-            readings_[i].status | loops_[i].force.status | fault_status(loops_[i].device_fault);
-        note_motion(readings_[i], handles_[i], world_.state(loops_[i].finger.proxy()), out);
+        const devices::Reading& reading = link_.reading(i);
+        out.buttons = reading.buttons;
+        out.status = reading.status | loops_[i].force.status | fault_status(loops_[i].device_fault);
+        note_motion(reading, handles_[i], world_.state(loops_[i].finger.proxy()), out);
         out.f_asked_W = loops_[i].force.asked_W.force;
         out.f_sent_W = loops_[i].force.sent_W.force;
         out.f_contact_W = touch.f_P_W;
@@ -144,8 +144,8 @@ void Servo::make_frame(Time now, const frame::Commands& commands,
     }
     for (size_t n = 0; n < turning_.size(); ++n) {
         const size_t i = turning_[n];
-        frame_.turns[n] = {readings_[i].R_DH,
-                           readings_[i].w_DH,
+        frame_.turns[n] = {link_.reading(i).R_DH,
+                           link_.reading(i).w_DH,
                            handles_[i].R_WH,
                            handles_[i].w_WH,
                            world_.state(loops_[i].finger.proxy()).w_WB,

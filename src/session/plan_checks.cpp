@@ -8,15 +8,13 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <set>
-#include <tuple>
 
 #include "analysis/bids.h"
 #include "analysis/trials.h"
 #include "base/figure.h"
-#include "model/grasp.h"
 #include "recording/nwb.h"
 #include "rows/lift_row.h"
+#include "session/lift_checks.h"
 #include "session/load_checks.h"
 #include "session/mass_checks.h"
 #include "session/proxies.h"
@@ -24,7 +22,6 @@
 #include "session/task_checks.h"
 #include "session/texture_checks.h"
 #include "task/plan/levels.h"
-#include "task/run/trial_numbers.h"
 
 namespace dihaptic::session {
 namespace {
@@ -245,88 +242,6 @@ void check_grip(const Plan& plan, Diagnostics& diagnostics) {
         "Make it lighter: its weight cannot be rendered.");
 }
 
-/// An object to be lifted in the task's trials, with the weight and friction that it has in those
-/// trials.
-struct Lifting {
-    std::string what;  // description
-    double weight;     // [N]
-    double friction;   // friction coefficient with the most slippery finger
-};
-
-std::vector<Lifting> liftings(const Plan& plan) {
-    std::set<std::string> lifted;
-    for (const task::State& state : plan.task->task.states) {
-        for (const task::Exit& exit : state.exits) {
-            if (exit.when == task::When::gripped || exit.when == task::When::lifted)
-                lifted.insert(exit.body);
-        }
-    }
-    std::vector<Lifting> out;
-    std::set<std::string> known;
-    task::each_trial(*plan.task, [&](size_t t, const task::TrialNumbers& numbers) {
-        const task::Trial& trial = plan.task->trials[t];
-        const task::TaskPlan::Cell& cell = numbers.cell();
-        for (const std::string& name : lifted) {
-            const int index = plan.scene.find(name);
-            const scene::Body& body = plan.scene.bodies[static_cast<size_t>(index)];
-            double weight = scene::mass(body) * plan.scene.gravity.norm();
-            double friction = std::numeric_limits<double>::infinity();
-            for (const scene::Finger& finger : plan.scene.fingers) {
-                friction =
-                    std::min(friction, scene::pair_friction(plan.scene, body.name, body.friction,
-                                                            finger.name, finger.friction));
-            }
-            for (const int p : trial.perturb) {
-                const auto changed = cell.perturbations[static_cast<size_t>(p)].properties();
-                if (changed && changed->body == index) {
-                    weight *= changed->weight_scale;
-                    friction *= changed->friction_scale;
-                }
-            }
-            const std::string what =
-                fmt::format("{} of {:.0f} g with friction {:.2g}", name,
-                            weight / plan.scene.gravity.norm() * 1e3, friction);
-            if (known.insert(what).second) out.push_back({what, weight, friction});
-        }
-    });
-    std::sort(out.begin(), out.end(), [](const Lifting& a, const Lifting& b) {
-        return std::tie(a.weight, a.friction) < std::tie(b.weight, b.friction);
-    });
-    return out;
-}
-
-/// Warns about objects that two fingers cannot hold with these devices, however hard they pinch.
-void check_liftings(const Plan& plan, Diagnostics& diagnostics) {
-    if (!plan.task || plan.scene.fingers.size() != 2 || plan.scene.gravity.norm() == 0) return;
-    double peak = std::numeric_limits<double>::infinity();
-    double continuous = peak;
-    for (const frame::DeviceInfo& info : plan.devices) {
-        peak = std::min(peak, info.peak_force);
-        continuous = std::min(continuous, info.continuous_force);
-    }
-    if (plan.settings.safety.max_force) peak = std::min(peak, *plan.settings.safety.max_force);
-    std::string beyond;
-    std::string for_long;
-    for (const Lifting& lifting : liftings(plan)) {
-        const double force = model::smallest_hold(lifting.weight, lifting.friction);
-        std::string& list = force > peak ? beyond : for_long;
-        if (force <= std::min(peak, continuous)) continue;
-        list += fmt::format("{}{} ({:.1f} N)", list.empty() ? "" : ", ", lifting.what, force);
-    }
-    const auto warn = [&](double limit, const char* gives, const char* then,
-                          const std::string& which) {
-        if (which.empty()) return;
-        diagnostics.warning(
-            plan.task->task.place, "task",
-            fmt::format("requires more of each finger than the {:.1f} N that {} {}, so that "
-                        "the object slips {}: {}",
-                        limit, plan.devices.front().model, gives, then, which),
-            "Make it lighter or less slippery, or use a rig with stronger devices.");
-    };
-    warn(peak, "gives at most", "however hard it is pinched", beyond);
-    warn(continuous, "can sustain", "after some seconds", for_long);
-}
-
 /// Warns about trials that wait for a trigger when the rig has no trigger line.
 void check_triggers(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task) return;
@@ -504,7 +419,7 @@ void check_devices(Plan& plan, Diagnostics& diagnostics) {
     check_damping(plan, diagnostics);
     check_limits(plan, diagnostics);
     check_grip(plan, diagnostics);
-    check_liftings(plan, diagnostics);
+    check_lifts(plan, diagnostics);
     check_loads(plan, diagnostics);
     diagnostics.throw_if_errors();
 }

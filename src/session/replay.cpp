@@ -154,8 +154,8 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
     const auto begin = Wall::now();
     while (recorded != nullptr && log.health().gaps.empty() && !stop.load()) {
         if (recorded->status & kResumed) servo.resume();
-        servo.note_timing(recorded->lateness, recorded->tick_duration,
-                          (recorded->status & kOverrun) != 0);
+        servo.note_timing(
+            {recorded->lateness, recorded->tick_duration, (recorded->status & kOverrun) != 0});
         if (!same(servo.tick(recorded->time, director), *recorded) && result.different_ticks++ == 0)
             result.first_difference = seconds(recorded->time);
         ++result.ticks;

@@ -108,6 +108,39 @@ class DoubtfulTasks(unittest.TestCase):
         for part in ("during: [wait, reach], field", "profile: { delay_s: 1 }, during: [reach], field"):
             self.assertNotIn("from the moment", self.check(text.replace("during: [reach], field", part)).stdout, part)
 
+    def test_an_end_that_comes_after_the_states_is_doubted(self):
+        text = TASK.replace("  regions:", "  measures: [movement_time]\n  movement: { of: index, from: start, to: target, "
+                            "during: [reach], end_still_s: 0.2 }\n  regions:", 1)
+        self.assertIn("may end 'reach' 0.1 s after the hand has become still, but the movement is over only after 0.2 s",
+                      self.check(text).stdout)
+        for old, new in (("hold_s: 0.1", "hold_s: 0.2"), ("end_still_s: 0.2", "end_still_s: 0.1")):
+            self.assertNotIn("become still", self.check(text.replace(old, new)).stdout, new)
+
+    def lift(self, of, joints="", task="", named=""):
+        """The messages about a task in which one of two blocks is lifted."""
+        scene = pathlib.Path("scenes/block-on-table.yaml").read_text().replace(
+            "fingers:", "  - { name: lid, shape: box, size_mm: [40, 40, 10], mass_g: 20, position_mm: [0, 0, 46] }\n"
+            + joints + "fingers:", 1)
+        pathlib.Path(self.folder, "scene.yaml").write_text(scene.replace("object: block\n", named))
+        return self.check(f"""scene: scene.yaml
+hand: {{ centre_mm: [0, 0, 20], aperture_mm: 85 }}
+task:
+  states:
+    - name: lift
+      exits: [{{ when: lifted, body: {of}, outcome: lifted }}, {{ when: time, after_s: 9, outcome: late }}]
+      simulated_hand: [{{ duration_s: 1, aperture_mm: 36 }}, {{ duration_s: 1, move_mm: [0, 0, 50] }}]
+{task}  blocks: [{{ name: all, kind: baseline, repeats: 2 }}]
+""").stdout
+
+    def test_lifts_that_would_be_marked_no_touch_are_doubted(self):
+        hinge = "joints: [{ name: hinge, kind: hinge, between: [block, lid], position_mm: [0, 20, 40], axis: [1, 0, 0] }]\n"
+        self.assertNotIn("counts as touch", self.lift("block"))
+        self.assertNotIn("no touch", self.lift("block"))
+        self.assertIn("lid: is gripped or lifted in the task, but lifts are measured of block alone", self.lift("lid"))
+        self.assertNotIn("no touch", self.lift("lid", task="  conditions: [{ name: lid, object: lid }]\n"))
+        self.assertIn("block: is joined to lid, but only contact with 'block' itself counts", self.lift("block", hinge))
+        self.assertNotIn("counts", self.lift("block", hinge, named="object: block\n"))
+
     def test_numbers_without_a_value_are_refused(self):
         for condition, told in (("sqrt(0 - 1) > 1", "made of numbers alone, that is not a number"),
                                 ("grip_force / 0 > 1", "is zero, by which nothing can be divided"),

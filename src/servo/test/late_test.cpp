@@ -299,11 +299,11 @@ TEST(Late, MoreThanMaxLateEndsForceInTheNextTick) {
     // a tick that wakes up late, but whose time is the time when it was due
     Hold woken(What::wall, "real", settings);
     woken.run(kHeld, milliseconds(1), kHeld);
-    woken.servo->note_timing(2.9e-3, 1e-5, false);
+    woken.servo->note_timing({2.9e-3, 1e-5, false});
     woken.tick();
     EXPECT_FALSE(woken.servo->fault());
     woken.now += milliseconds(1);
-    woken.servo->note_timing(3.1e-3, 1e-5, false);
+    woken.servo->note_timing({3.1e-3, 1e-5, false});
     woken.tick();
     EXPECT_EQ(woken.last, 0);
     EXPECT_EQ(woken.servo->fault().value, 3.1e-3);

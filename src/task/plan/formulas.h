@@ -1,7 +1,9 @@
 // The formulas of a task (base/formula.h), compiled once for its plan.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "base/formula.h"
 #include "task/expression/expression.h"
@@ -20,6 +22,33 @@ struct CompiledFormula {
     double value(std::span<const double> values) const noexcept {
         return scale * expression(values);
     }
+};
+
+/// Quantities that formulas can use, and the slots that hold their values.
+struct Symbols {
+    struct Draw {
+        int slot;
+        double si;                  ///< unit of the draw's name, as a multiple of the SI unit
+        std::vector<double> codes;  ///< codes of the draw's values if they are texts
+        double value(double drawn) const noexcept {
+            return codes.empty() ? si * drawn : codes[static_cast<size_t>(drawn)];
+        }
+    };
+    struct Levels {
+        int slot;
+        /// Level in each condition or, if `of_round`, in each round.
+        std::vector<double> levels;
+        bool of_round = false;
+    };
+    std::vector<Draw> draws;
+    std::vector<Levels> factors;
+    struct Changing {
+        int slot = 0;
+        int between = 0;  ///< slot of the variable in TaskPlan::between
+    };
+    std::vector<Changing> variables;
+    int outcome = 0;
+    std::vector<double> outcomes;  ///< code of the name of each outcome
 };
 
 /// Calls f(Formula&) for each formula in a struct.

@@ -146,6 +146,31 @@ class MeasureChecker {
         if (movement_.axis && movement_.axis->norm() <= 0)
             error("axis", "has no direction", "Write e.g. axis: [0, 0, 1].");
         check_what_moves();
+        check_end();
+    }
+
+    /// Warns if the movement's states may be left before the hand has been still for long enough.
+    void check_end() {
+        const auto in = [&](const std::string& name) {
+            return std::ranges::count(movement_.during, name) > 0;
+        };
+        for (const State& state : task_.states) {
+            if (!in(state.name)) continue;
+            for (const Exit& exit : state.exits) {
+                const bool arrives = exit.when == When::inside || exit.when == When::still;
+                const bool over = arrives && !exit.redo && !in(exit.to);
+                if (!over || exit.hold.computed() || exit.hold.value >= movement_.end_still)
+                    continue;
+                diagnostics_.warning(
+                    exit.place, "hold",
+                    fmt::format("may end '{}' {:.3g} s after the hand has become still, but the "
+                                "movement is over only after {:.3g} s (end_still): its end and "
+                                "duration will then be missing",
+                                state.name, exit.hold.value, movement_.end_still),
+                    "Hold the condition for longer, shorten end_still, or list the state that "
+                    "follows in 'during'.");
+            }
+        }
     }
 
     void check_what_moves() {

@@ -194,32 +194,6 @@ struct TaskPlan {
     uint32_t going_on = 0;
     uint32_t throughout = 0;  ///< sounds that last throughout the session, one bit for each sound
 
-    /// Quantities that formulas can use, and the slots that hold their values.
-    struct Symbols {
-        struct Draw {
-            int slot;
-            double si;                  ///< unit of the draw's name, as a multiple of the SI unit
-            std::vector<double> codes;  ///< codes of the draw's values if they are texts
-            double value(double drawn) const noexcept {
-                return codes.empty() ? si * drawn : codes[static_cast<size_t>(drawn)];
-            }
-        };
-        struct Levels {
-            int slot;
-            /// Level in each condition or, if `of_round`, in each round.
-            std::vector<double> levels;
-            bool of_round = false;
-        };
-        std::vector<Draw> draws;
-        std::vector<Levels> factors;
-        struct Changing {
-            int slot = 0;
-            int between = 0;  ///< slot of the variable in TaskPlan::between
-        };
-        std::vector<Changing> variables;
-        int outcome = 0;
-        std::vector<double> outcomes;  ///< code of the name of each outcome
-    };
     /// A custom measure of the task.
     struct Measured {
         CompiledFormula value;  ///< formula that uses the slots of `measured`

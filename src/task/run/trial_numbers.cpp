@@ -94,10 +94,10 @@ void TrialNumbers::begin(int trial, int attempt, std::span<const frame::Variable
     trial_ = trial + 1;
     attempt_ = attempt;
     const Trial& now = plan_.trials[static_cast<size_t>(trial)];
-    const TaskPlan::Symbols& symbols = plan_.symbols;
+    const Symbols& symbols = plan_.symbols;
     for (size_t i = 0; i < symbols.draws.size(); ++i)
         quantities_.set(symbols.draws[i].slot, symbols.draws[i].value(now.draws[i]));
-    for (const TaskPlan::Symbols::Levels& factor : symbols.factors) {
+    for (const Symbols::Levels& factor : symbols.factors) {
         const int of = factor.of_round ? now.round : now.condition;
         quantities_.set(factor.slot, factor.levels[static_cast<size_t>(of)]);
     }
