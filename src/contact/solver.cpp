@@ -25,6 +25,13 @@ constexpr int64_t kLittleWork = 20'000;  // [visits], about half a millisecond
 constexpr size_t kExactWhenBounded = 2;  // number of methods from hand_over() that count as exact
                                          // when work is bounded
 constexpr double kSharp = 1e-2;          // share of the tolerance for which a sharpened answer aims
+/// With these starts, loads that the equations leave undetermined keep their shares, since rho is
+/// large at first and falls slowly.
+constexpr std::array kSharpeningStarts{
+    NewtonStart{NewtonStart::From::given, 1e-2, 40, 6, 12, false, 0, 0},
+    NewtonStart{NewtonStart::From::best, 1e-3, 40, 6, 12, true, 0, 0}, kNewtonStarts[2]};
+constexpr std::span<const NewtonStart> kSharpenGently = std::span(kSharpeningStarts).first(2);
+constexpr std::span<const NewtonStart> kSharpenAtLast = std::span(kSharpeningStarts).last(1);
 /// Bound on staggered projections that another solver hands over to: on pairs times squared
 /// contacts.
 constexpr size_t kMostStaggeredWork = 20'000;
@@ -198,7 +205,7 @@ class Solve {
 
     Outcome by_newton(std::span<const NewtonStart> starts = kNewtonStarts,
                       size_t most_work = kMostNewtonWork) {
-        return newton(system_, r_, kTolerance, newton_memory_, starts,
+        return newton(system_, r_, kTolerance, kTolerance, newton_memory_, starts,
                       std::min(most_work, kMostNewtonWork));
     }
 
@@ -238,9 +245,9 @@ class Solve {
 
     /// Projects the impulses into the cone, so that a remaining error never pulls bodies together.
     /// Some problems are so delicate that even this small change is too much. Their answers are
-    /// sharpened first: a few more steps of Newton's method leave nearly nothing to project. An
-    /// answer that is still outside is left as it is.
-    /// `exact`: whether Newton's matrix has been prepared.
+    /// sharpened first: a few more steps of Newton's method leave nearly nothing to project, and a
+    /// cautious start is used for the few answers that they cannot improve. An answer that is still
+    /// outside is left as it is. `exact`: whether Newton's matrix has been prepared.
     Residual end_inside_cone(bool exact) {
         // sweeps end inside the cone, except for rounding
         if (stats_.route == Route::sequential_impulse || stats_.route == Route::out_of_work) {
@@ -255,9 +262,12 @@ class Solve {
             return cone_residual();
         }
         if (!exact) return unprojected;
-        sharpen();
-        const Residual sharp = project_or_restore(unprojected);
-        return sharp.judged() <= kTolerance ? sharp : unprojected;
+        for (const std::span<const NewtonStart> starts : {kSharpenGently, kSharpenAtLast}) {
+            sharpen(starts);
+            const Residual sharp = project_or_restore(unprojected);
+            if (sharp.judged() <= kTolerance) return sharp;
+        }
+        return unprojected;
     }
 
     /// Projects the impulses and returns their residual. If that misses the tolerance, restores the
@@ -272,14 +282,10 @@ class Solve {
         return projected;
     }
 
-    /// Takes further steps of Newton's method, far below the tolerance. Loads that the equations
-    /// leave undetermined keep their shares, since rho is large at first and falls slowly.
-    void sharpen() {
-        using From = NewtonStart::From;
-        constexpr std::array<NewtonStart, 2> kStarts{{{From::given, 1e-2, 40, 6, 12, false, 0, 0},
-                                                      {From::best, 1e-3, 40, 6, 12, true, 0, 0}}};
+    /// Takes further steps of Newton's method, far below the tolerance.
+    void sharpen(std::span<const NewtonStart> starts) {
         stats_.iterations +=
-            newton(system_, r_, kSharp * kTolerance, newton_memory_, kStarts).iterations;
+            newton(system_, r_, kSharp * kTolerance, kTolerance, newton_memory_, starts).iterations;
     }
 
     void project() {

@@ -189,7 +189,7 @@ void World::activate() {
     // points keep their records for two steps, and only a few are added late in a step
     w.carried_pool.reserve(MANIFOLD_CACHE_SIZE *
                            (static_cast<size_t>(w.collision->max_pairs()) +
-                            Collision::kMostEntered +
+                            PathSearch::kMost +
                             2 * static_cast<size_t>(points) * kMostPointContacts));
     w.has_fingers = std::any_of(w.items.begin(), w.items.end(),
                                 [](const Impl::Item& item) { return item.is_proxy; });

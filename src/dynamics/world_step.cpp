@@ -299,7 +299,7 @@ contact::SolveStats World::Impl::solve_with_entered(double h, const Vec3& gravit
         if (clear) break;
         collect_awake(states);
         open_books(gravity, true);
-        prepare_contacts(collision->entered(), h);
+        prepare_contacts(collision->paths().found(), h);
         for (const size_t i : awake) {
             items[i].body->setLinearVelocity(items[i].v_before);
             items[i].body->setAngularVelocity(items[i].w_before);
@@ -311,9 +311,9 @@ contact::SolveStats World::Impl::solve_with_entered(double h, const Vec3& gravit
         stats.iterations += before.iterations;
         stats.work += before.work;
     }
-    if (!clear || collision->is_unsure()) hold_back(h, search);
+    if (!clear || collision->paths().is_unsure()) hold_back(h, search);
     stats.work += search.spent();
-    if (collision->search_was_cut()) {
+    if (collision->paths().was_cut()) {
         stats.missed = stats.ended = true;
         stats.route = contact::Route::out_of_work;
     }

@@ -351,9 +351,10 @@ Residual coulomb_residual(const System& system, std::span<const typename System:
     return load.residual(scaled, given);
 }
 
-/// Solves Coulomb's law with proximal_newton().
+/// Solves Coulomb's law with proximal_newton(). `enough` is that of coulomb_residual(): with a
+/// tolerance below it, points that already meet `enough` are still compared by both residuals.
 template <class System>
-Outcome newton(System& system, std::span<typename System::Vec> r, double tolerance,
+Outcome newton(System& system, std::span<typename System::Vec> r, double tolerance, double enough,
                NewtonMemory<System>& memory, std::span<const NewtonStart> starts = kNewtonStarts,
                size_t most_work = kMostNewtonWork) {
     using Vec = typename System::Vec;
@@ -361,7 +362,7 @@ Outcome newton(System& system, std::span<typename System::Vec> r, double toleran
     return proximal_newton(
         system, law::Coulomb{}, r, tolerance, memory,
         [&](std::span<const Vec> impulse, std::span<const Vec> u) {
-            return coulomb_residual(system, impulse, u, size, tolerance).judged();
+            return coulomb_residual(system, impulse, u, size, enough).judged();
         },
         starts, most_work);
 }

@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
-#include "contact/work.h"
 #include "dynamics/bullet/contact_algorithm.h"
+#include "dynamics/bullet/path_search.h"
 #include "dynamics/bullet/seams.h"
 #include "dynamics/bullet/shape.h"
 
@@ -45,58 +45,58 @@ class Collision {
     /// Finds the contacts of all pairs that include an awake body. A sleeping body touched by an
     /// awake one wakes up: its user index 2 becomes 1, and its pairs are searched too.
     void find_contacts(double h);
-    /// Searches along the paths of all bodies, moving at their current velocities, in a step of h,
-    /// and adds contacts to manifolds() for bodies that would enter each other by more than
-    /// `kEntered` even though the step's contacts are satisfied; README.md derives these contacts.
-    /// The fraction `recovery` of a penetration is removed per step. Returns false if no contact
-    /// was added. Wakes bodies like find_contacts(). Strides along the paths are counted in `work`;
-    /// when it is used up, the search ends (search_was_cut()).
+    /// Searches along the paths of all bodies (path_search.h) and adds contacts to manifolds() for
+    /// bodies that would enter each other. Returns false if no contact was added. Wakes bodies like
+    /// find_contacts(). Strides along the paths are counted in `work`; when it is used up, the
+    /// search ends.
     bool find_entered(double h, double recovery, contact::Work& work);
     /// The last resort if find_entered() does not suffice: bodies that would still enter each other
     /// cover only a fraction of their path in the step, their hit fraction, which is 1 before the
     /// first call. Returns false if there are no such bodies.
     bool hold_back(double h, contact::Work& work);
-    /// Whether find_entered() may have missed contacts since the last find_contacts(): it ran out
-    /// of memory for them, or assumed that bodies already inside each other were leaving.
-    bool is_unsure() const { return is_unsure_ || entered_count_ == kMostEntered; }
-    /// Whether find_entered() has skipped strides since the last find_contacts(), because work ran
-    /// out.
-    bool search_was_cut() const { return search_was_cut_; }
+    const PathSearch& paths() const { return paths_; }
 
     /// To be called when bodies have fallen asleep or woken up, so that other pairs must be
     /// searched.
-    void sleepers_changed() { live_is_stale_ = true; }
+    void sleepers_changed() { pairs_.sleepers_changed(); }
 
     /// The manifolds that have contacts from the last find_contacts(). Manifolds between the same
     /// two bodies are adjacent.
     std::vector<btPersistentManifold*>& manifolds() { return manifolds_; }
-    /// The manifolds added by the last find_entered().
-    std::span<btPersistentManifold* const> entered() const { return new_; }
     /// Calls `use` with every manifold, including those of sleeping bodies.
     template <class Use>
     void for_each_manifold(const Use& use) const {
         for (int i = 0; i < dispatcher_.getNumManifolds(); ++i)
             use(*dispatcher_.getManifoldByIndexInternal(i));
-        for (const auto& manifold : entered_) use(*manifold);
+        for (const auto& manifold : paths_.manifolds()) use(*manifold);
     }
     int max_pairs() const { return max_pairs_; }
-    static constexpr size_t kMostEntered = 64;  ///< most pairs that enter each other in a step
     bool overflowed() const { return overflowed_; }
 
   private:
-    /// A pair cache that notes when pairs appear and disappear.
+    /// A pair cache that lists the pairs with an awake body. The list is made again only when pairs
+    /// have appeared or disappeared, or bodies have fallen asleep or woken up.
     class Pairs final : public btHashedOverlappingPairCache {
       public:
         btBroadphasePair* addOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* b) override {
-            ++version;
+            ++version_;
             return btHashedOverlappingPairCache::addOverlappingPair(a, b);
         }
         void* removeOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* b,
                                     btDispatcher* dispatcher) override {
-            ++version;
+            ++version_;
             return btHashedOverlappingPairCache::removeOverlappingPair(a, b, dispatcher);
         }
-        int64_t version = 0;
+        void reserve_live(size_t pairs) { live_.reserve(pairs); }
+        void sleepers_changed() { is_stale_ = true; }
+        /// Returns the indices of the pairs with an awake body.
+        const std::vector<int>& live();
+
+      private:
+        std::vector<int> live_;
+        int64_t version_ = 0;
+        int64_t listed_version_ = -1;  // version for which live_ was made
+        bool is_stale_ = true;
     };
 
     /// Excludes pairs of parts that belong to the same body, pairs of bodies between which a joint
@@ -105,29 +105,21 @@ class Collision {
         bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
             return (a->m_collisionFilterGroup & b->m_collisionFilterMask) != 0 &&
                    (b->m_collisionFilterGroup & a->m_collisionFilterMask) != 0 &&
-                   part(a).body != part(b).body && !part(a).hidden && !part(b).hidden &&
-                   part(a).body->checkCollideWith(part(b).body);
+                   part_of(a).body != part_of(b).body && !part_of(a).hidden && !part_of(b).hidden &&
+                   part_of(a).body->checkCollideWith(part_of(b).body);
         }
     };
 
-    static CollisionPart& part(const btBroadphaseProxy* bounds) {
-        return *static_cast<CollisionPart*>(bounds->m_clientObject);
-    }
     void set_bounds(CollisionPart& part, double h, bool keep);
     /// Returns the pair's algorithm if it is one of our own, otherwise null.
     static OwnAlgorithm* own(const btBroadphasePair& pair);
     /// Whether the contacts of two parts may be carried along: each of them is part of a heap or
     /// fixed.
     static bool may_be_carried(const CollisionPart& a, const CollisionPart& b);
-    /// Computes the part's pose, unless this search has already done so.
-    void place(CollisionPart& part) const;
-    /// Computes the part's speed due to turning, unless this search has already done so.
-    void time(CollisionPart& part) const;
     void reserve_pairs(int pairs);
     void sort_by_bodies();
     /// Removes contacts at points inside bodies that consist of several parts (seams.h).
     void remove_inner();
-    void list_live_pairs();
     /// Finds the contacts of a pair. Returns whether a body woke up.
     bool look_at(btBroadphasePair& pair, const btDispatcherInfo& info);
     /// Computes the contacts of a pair. Returns false if there is no algorithm for its parts.
@@ -135,24 +127,6 @@ class Collision {
                  const btDispatcherInfo& info);
     /// Lists the manifolds in scratch_. Returns whether a body woke up.
     bool list_found(const CollisionPart& part_a, const CollisionPart& part_b);
-    /// Whether the work budget suffices for another stride. If so, spends that work; if not, notes
-    /// that the search was cut.
-    bool affords(contact::Work& work, int64_t visits);
-    /// Follows two parts along their paths in a step, from stride number `first` on, and as far as
-    /// the hit fractions of their bodies allow. At each stride, writes their contacts to `out` and
-    /// calls `visit` with the initial poses of both bodies and the time since then [s]. Returns the
-    /// fraction of the path that was covered before `visit` first returned true.
-    template <class Visit>
-    double walk(btBroadphasePair& pair, double h, int first, btPersistentManifold& out,
-                contact::Work& work, const Visit& visit);
-    /// Returns the first manifold of a pair, or null if there is none.
-    const btPersistentManifold* manifold_of(const btBroadphasePair& pair);
-    /// Finds the contacts of two parts at their current poses. Returns false if there is no
-    /// algorithm for these parts.
-    bool meet(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
-              btPersistentManifold& out);
-    bool enters(btBroadphasePair& pair, double h, double recovery, btPersistentManifold& out,
-                contact::Work& work);
 
     btDefaultCollisionConfiguration configuration_;
     /// Provides memory for its manifolds, and gives each new manifold this world's own breaking
@@ -188,29 +162,14 @@ class Collision {
     std::vector<OfParts> found_;  // in the same order as manifolds_
     std::vector<btPersistentManifold*> manifolds_;
     btManifoldArray scratch_;
-    std::vector<std::unique_ptr<btPersistentManifold>> entered_;  // memory for late contacts
-    size_t entered_count_ = 0;
-    btPersistentManifold waiting_;            // contacts of two bodies, in hold_back()
-    std::vector<btPersistentManifold*> new_;  // manifolds from the last find_entered()
-    std::vector<int> live_;                   // indices in the cache of pairs with an awake body
-    int64_t live_version_ = -1;               // version of the pair cache for which live_ was made
-    bool live_is_stale_ = true;
     std::vector<char> looked_at_;  // for each pair, whether it was examined
     bool overflowed_ = false;
-    bool search_was_cut_ = false;
-    bool is_unsure_ = false;
+    PathSearch paths_;
 };
 
 constexpr int kAwake = 1;
 /// User index 3 of bodies that were part of a heap in the last step (World::Impl::is_heap): their
 /// contacts with each other may be carried along.
 constexpr int kInHeap = 1;
-/// Depth to which a step may let a body enter another [m].
-constexpr double kEntered = 1e-4;
-
-/// Returns how much closer the surfaces of two body parts may come to each other in a step,
-/// according to their velocities before contacts act. Parts that are farther apart than this cannot
-/// touch in the step [m].
-double approach(const CollisionPart& a, const CollisionPart& b, double h);
 
 }  // namespace dihaptic::dynamics

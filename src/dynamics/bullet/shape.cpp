@@ -167,4 +167,39 @@ std::vector<std::unique_ptr<CollisionPart>> collision_parts(const scene::Shape& 
     return out;
 }
 
+void CollisionPart::place(int64_t search) {
+    if (placing == search) return;
+    const btTransform now = X_WS();
+    const bool first = placing == 0;
+    placing = search;
+    if (!first && now == placed_at) return;
+    const Pose last = X_WS_placed;
+    placed_at = now;
+    X_WS_placed = from_bullet(now);
+    if (first) return;
+    const Vec3 middle = from_bullet(centre);
+    // a point at the distance r from the axis of a turn by an angle moves by 2 r sin(angle / 2)
+    way += (X_WS_placed * middle - last * middle).norm() +
+           2 * (X_WS_placed.R * last.R.conjugate()).vec().norm() * radius;
+}
+
+void CollisionPart::time(int64_t search) {
+    if (timing == search) return;
+    timing = search;
+    turning = turning_at(X_WS());
+}
+
+double CollisionPart::turning_at(const btTransform& X_WS) const {
+    const btScalar speed = body->getInterpolationAngularVelocity().length();
+    if (speed == 0) return 0;
+    const btVector3 off = X_WS * centre - body->getWorldTransform().getOrigin();
+    return speed * (off.length() + radius);
+}
+
+double approach(const CollisionPart& a, const CollisionPart& b, double h) {
+    const btVector3 closing =
+        a.body->getInterpolationLinearVelocity() - b.body->getInterpolationLinearVelocity();
+    return h * (closing.length() + a.turning + b.turning);
+}
+
 }  // namespace dihaptic::dynamics

@@ -76,7 +76,23 @@ struct CollisionPart {
     btTransform X_WS() const {
         return moved ? body->getWorldTransform() * X_MS : body->getWorldTransform();
     }
+    /// Computes the pose, unless the search with this number has already done so.
+    void place(int64_t search);
+    /// Computes the speed due to turning, unless the search with this number has already done so.
+    void time(int64_t search);
+    /// Largest speed of any of the part's points due to its body's rotation at the pose X_WS [m/s].
+    double turning_at(const btTransform& X_WS) const;
 };
+
+/// Returns the part to which bounds belong.
+inline CollisionPart& part_of(const btBroadphaseProxy* bounds) {
+    return *static_cast<CollisionPart*>(bounds->m_clientObject);
+}
+
+/// Returns how much closer the surfaces of two body parts may come to each other in a step,
+/// according to their velocities before contacts act. Parts that are farther apart than this cannot
+/// touch in the step [m].
+double approach(const CollisionPart& a, const CollisionPart& b, double h);
 
 /// Returns the convex parts of a shape. `X_BM` is the pose of M in the body's frame.
 std::vector<std::unique_ptr<CollisionPart>> collision_parts(const scene::Shape& shape,

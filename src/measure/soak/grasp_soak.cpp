@@ -7,9 +7,12 @@
 // Their seeds and ranges were fixed before their first run. Five misses in the third family showed
 // that the later starts must be cautious (docs/adr/0034-caution.md); other problems showed how
 // cautious they must be.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "base/random.h"
 #include "measure/test/bars.h"
@@ -31,6 +34,41 @@ struct Case {
     contact::Solver solver;
     Family family;
 };
+
+/// Writes a problem, with the impulses from which its solve started, in the form in which
+/// src/contact/test/jammed_test.cpp reads it. Returns the name of the file.
+std::string write_missed(const contact::ContactProblem& problem,
+                         std::span<const contact::Impulse> start, int64_t number) {
+    const auto file =
+        std::filesystem::temp_directory_path() / fmt::format("missed-grasp-{}.txt", number);
+    std::ofstream out(file);
+    out.precision(17);
+    const auto write = [&](const auto& matrix) {
+        for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+            for (Eigen::Index j = 0; j < matrix.cols(); ++j) out << matrix(i, j) << ' ';
+        }
+        out << '\n';
+    };
+    out << problem.bodies.size() << ' ' << problem.contacts.size() << '\n';
+    for (const contact::ProblemBody& body : problem.bodies) {
+        write(body.inverse_mass);
+        write(body.v_W);
+        write(body.w_W);
+    }
+    for (size_t j = 0; j < problem.contacts.size(); ++j) {
+        const contact::ProblemContact& contact = problem.contacts[j];
+        out << contact.a << ' ' << contact.b << '\n';
+        write(contact.p_AC_W);
+        write(contact.p_BC_W);
+        write(contact.R_WC);
+        out << contact.bias << ' ';
+        write(contact.slip);
+        out << contact.friction << ' ' << contact.torsion_radius << ' ' << contact.compliance
+            << '\n';
+        write(start[j]);
+    }
+    return file;
+}
 
 class Soak : public ::testing::TestWithParam<Case> {
   protected:
@@ -89,9 +127,13 @@ TEST_P(Soak, AMillionSolvesOfGrasps) {
         Bench bench(scene, hand, setup);
         Random push(pushes() + static_cast<uint64_t>(runs), "pushes");
         size_t contacts = 0;
+        contact::ContactProblem last;  // the last problem, which is copied in case it is missed
+        std::vector<contact::Impulse> start;
         bench.servo().world().watch_problems(
-            [&](const contact::ContactProblem& problem, std::span<const contact::Impulse>) {
+            [&](const contact::ContactProblem& problem, std::span<const contact::Impulse> from) {
                 contacts += problem.contacts.size();
+                last = problem;
+                start.assign(from.begin(), from.end());
             });
         const frame::Director shake = [&](const frame::Frame& frame, std::span<const frame::Handle>,
                                           frame::Commands& commands) {
@@ -110,7 +152,10 @@ TEST_P(Soak, AMillionSolvesOfGrasps) {
                 ++routes[static_cast<size_t>(frame.solver_route)];
                 if (solver == contact::Solver::newton || contacts <= kContacts)
                     fallbacks += frame.solver_fallback;
-                missed += (frame.status & kSolverMissed) != 0;
+                const bool misses = (frame.status & kSolverMissed) != 0;
+                missed += misses;
+                if (misses && solver == contact::Solver::newton)
+                    std::printf("missed: %s\n", write_missed(last, start, missed).c_str());
                 not_finite +=
                     !frame.bodies[1].X_WB.p.allFinite() || !std::isfinite(frame.solver_residual);
             },
