@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "base/plural.h"
 #include "command.h"
@@ -62,18 +63,16 @@ void make_folder(const std::string& folder) {
                     "Name a folder in which you may write with --out.");
 }
 
-/// Writes the tables for all paths, and reports what is wrong with the sessions.
-analysis::ReportResult write_tables_of(const ReportOptions& options) {
+/// Writes the tables for all folders, and reports what is wrong with the sessions.
+analysis::ReportResult write_tables_of(const std::vector<std::string>& folders) {
     analysis::ReportResult result;
     {
         ProgressLine line("reading");
         double before = 0;
-        const auto paths = static_cast<double>(options.paths.size());
-        for (const std::string& path : options.paths) {
-            const std::string folder =
-                is_study(path) ? sessions_of({path, options.rehearsed}) : path;
+        const auto count = static_cast<double>(folders.size());
+        for (const std::string& folder : folders) {
             result.add(analysis::write_tables(
-                folder, [&](double share) { line.show_or_stop((before + share) / paths); },
+                folder, [&](double share) { line.show_or_stop((before + share) / count); },
                 session::counts_in_study));
             ++before;
         }
@@ -88,11 +87,16 @@ analysis::ReportResult write_tables_of(const ReportOptions& options) {
 void report(const ReportOptions& options) {
     check_options(options);
     if (!options.out.empty()) make_folder(options.out);
-    analysis::ReportResult result = write_tables_of(options);
+    std::vector<std::string> folders;
+    for (const std::string& path : options.paths)
+        folders.push_back(is_study(path) ? sessions_of({path, options.rehearsed}) : path);
+    std::optional<app::PageDrawer> drawer;
+    if (!options.tables) drawer.emplace(folders, app::PythonSays::on_terminal);
+    analysis::ReportResult result = write_tables_of(folders);
     result.out = options.out;
     std::string made;
-    if (!options.tables) {
-        app::draw_page(result, command_line(), app::PythonSays::on_terminal);
+    if (drawer) {
+        drawer->draw(result, command_line());
         made = result.page();
     }
     std::vector<std::string> tables;

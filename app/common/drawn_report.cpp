@@ -1,6 +1,7 @@
 #include "common/drawn_report.h"
 
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <array>
@@ -10,24 +11,20 @@
 #include <filesystem>
 
 #include "analysis/report/report_json.h"
-#include "base/child.h"
-#include "base/descriptor.h"
 #include "common/console.h"
 #include "common/package.h"
 
 namespace dihaptic::app {
 namespace {
 
-/// Creates a file in memory that contains this text, positioned at its beginning.
-Descriptor in_memory(const std::string& text) {
-    Descriptor file(memfd_create("dihaptic report", MFD_CLOEXEC));
-    for (size_t at = 0; file && at < text.size();) {
-        const ssize_t size = write(file.get(), text.data() + at, text.size() - at);
+/// Sends a text, unless nobody receives it any more.
+void send_all(const Descriptor& to, const std::string& text) {
+    for (size_t at = 0; at < text.size();) {
+        // without MSG_NOSIGNAL, a Python that has ended would end this program, too
+        const ssize_t size = send(to.get(), text.data() + at, text.size() - at, MSG_NOSIGNAL);
+        if (size < 0 && errno != EINTR) return;
         if (size > 0) at += static_cast<size_t>(size);
-        if (size < 0 && errno != EINTR) file.close();
     }
-    if (file && lseek(file.get(), 0, SEEK_SET) != 0) file.close();
-    return file;
 }
 
 /// The last lines of the file, which name the reason of a Python error.
@@ -52,30 +49,40 @@ Error no_page(const std::string& folder, const std::string& why, const std::stri
 
 }  // namespace
 
-void draw_page(const analysis::ReportResult& result, const std::string& command, PythonSays says) {
+PageDrawer::PageDrawer(const std::vector<std::string>& folders, PythonSays says)
+    : package_(python_folder()), says_(says), said_(memfd_create("dihaptic report", MFD_CLOEXEC)) {
+    if (package_.empty()) return;
+    std::array<int, 2> ends{-1, -1};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0 || !said_) {
+        failed_ = errno;
+        return;
+    }
+    description_ = Descriptor(ends[0]);
+    const Descriptor of_python(ends[1]);
+    Launch launch = python_launch(package_, "dihaptic.reports.__main__");
+    launch.files[0] = of_python.get();
+    launch.arguments.insert(launch.arguments.end(), folders.begin(), folders.end());
+    if (says_ == PythonSays::in_error)
+        launch.files = {of_python.get(), Launch::kNothing, said_.get()};
+    failed_ = python_.start(launch);
+}
+
+void PageDrawer::draw(const analysis::ReportResult& result, const std::string& command) {
     const std::string folder = std::filesystem::path(result.page()).parent_path();
-    const std::string package = python_folder();
-    if (package.empty())
+    if (package_.empty())
         throw no_page(folder, "the Python package draws it",
                       "Type sudo apt install python3-dihaptic or, in a checkout, ./dev build; or "
                       "add --tables, which needs no Python.");
-    const Descriptor description = in_memory(analysis::report_json(result, command));
-    const Descriptor said = in_memory("");
-    Launch launch = python_launch(package, "dihaptic.reports.__main__");
-    launch.files[0] = description.get();
-    launch.arguments.insert(launch.arguments.end(), result.paths.begin(), result.paths.end());
-    if (says == PythonSays::in_error)
-        launch.files = {description.get(), Launch::kNothing, said.get()};
-    std::fflush(stdout);  // the program's own output must come before the child's
-    Child python;
-    const int failed = description && said ? python.start(launch) : errno;
-    if (failed != 0)
-        throw no_page(folder, std::string("Python cannot be started: ") + std::strerror(failed),
+    if (failed_ != 0)
+        throw no_page(folder, std::string("Python cannot be started: ") + std::strerror(failed_),
                       "End other programs and try again.");
-    if (wait_for_python(python) == 0) return;
+    std::fflush(stdout);  // the program's own output must come before Python's
+    send_all(description_, analysis::report_json(result, command));
+    description_.close();
+    if (wait_for_python(python_) == 0) return;
     if (cli::stop_requested)
         throw no_page(folder, "it was interrupted", "Run the same command again.");
-    const std::string words = says == PythonSays::in_error ? last_words_in(said) : "";
+    const std::string words = says_ == PythonSays::in_error ? last_words_in(said_) : "";
     throw no_page(folder, "Python did not draw it",
                   words.empty() ? "The lines above this one give the reason." : words);
 }

@@ -22,8 +22,9 @@ void Reporter::write(const QString& folder) {
         QString why;
         try {
             const std::string command = "dihaptic report " + folder.toStdString();
+            app::PageDrawer drawer({folder.toStdString()}, app::PythonSays::in_error);
             const auto result = analysis::write_tables(folder.toStdString(), {});
-            app::draw_page(result, command, app::PythonSays::in_error);
+            drawer.draw(result, command);
             page = QString::fromStdString(result.page());
         } catch (const std::exception& e) {
             why = QString::fromStdString(e.what());

@@ -188,8 +188,7 @@ void World::activate() {
     w.island_contacts.reserve(manifolds);
     // points keep their records for two steps, and only a few are added late in a step
     w.carried_pool.reserve(MANIFOLD_CACHE_SIZE *
-                           (static_cast<size_t>(w.collision->max_pairs()) +
-                            PathSearch::kMost +
+                           (static_cast<size_t>(w.collision->max_pairs()) + PathSearch::kMost +
                             2 * static_cast<size_t>(points) * kMostPointContacts));
     w.has_fingers = std::any_of(w.items.begin(), w.items.end(),
                                 [](const Impl::Item& item) { return item.is_proxy; });

@@ -14,7 +14,7 @@ TEST(DrawnReport, ThatPythonRefusesTellsTheWindowWhy) {
     analysis::ReportResult result;
     result.paths = {folder.path()};
     try {
-        draw_page(result, "dihaptic report", PythonSays::in_error);
+        PageDrawer(result.paths, PythonSays::in_error).draw(result, "dihaptic report");
         FAIL() << "there is no session";
     } catch (const Error& e) {
         const std::string why = e.what();
@@ -25,7 +25,7 @@ TEST(DrawnReport, ThatPythonRefusesTellsTheWindowWhy) {
     }
     folder.write("report.html", "of yesterday");
     try {
-        draw_page(result, "dihaptic report", PythonSays::in_error);
+        PageDrawer(result.paths, PythonSays::in_error).draw(result, "dihaptic report");
         FAIL() << "there is no session";
     } catch (const Error& e) {
         const std::string why = e.what();

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -90,7 +91,9 @@ def _save_all(made: list[Drawn], data: Data, folder: Path, jobs: int) -> Iterato
     if min(jobs, len(made)) < 2 or "fork" not in get_all_start_methods():
         yield from map(save_one, range(len(made)))
         return
-    # forked children already have the data, so nothing is read again, or passed on
+    # forked children already have the data, so nothing is read again, or passed on; what they share with this process is
+    # exempt from the garbage collection, which would make each of them copy it
+    gc.freeze()
     with ProcessPoolExecutor(jobs, get_context("fork"), _take, (save_one, os.getpid())) as children:
         # a child that gets Ctrl-C before it ignores that signal would carry on as a second parent
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
@@ -99,6 +102,7 @@ def _save_all(made: list[Drawn], data: Data, folder: Path, jobs: int) -> Iterato
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
         yield from titles
+    gc.unfreeze()
 
 
 _work: list[Callable[[int], str]] = []

@@ -143,32 +143,34 @@ def save(figure: Figure, file: str | Path, points: pd.DataFrame | None = None) -
         "png": {"Software": None},
     }
     # the usual compression of PNG takes twice as long, for files that are a tenth smaller
-    options: dict[str, dict[str, Any]] = {"svg": {"transparent": True}, "pdf": {}, "png": {"pil_kwargs": {"compress_level": 3}}}
-    # the layout is computed once, so that it is the same in all formats; computing it takes as long as drawing
+    options: dict[str, dict[str, Any]] = {"svg": {"transparent": True}, "pdf": {}, "png": {"pil_kwargs": {"compress_level": 1}}}
     engine = figure.get_layout_engine()
+    drawn = {}
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
-        figure.draw_without_rendering()
+        if engine is not None:
+            # the layout is computed once, so that it is the same in all formats; with any engine, even "none", matplotlib
+            # would draw the figure twice for each
+            engine.execute(figure)
+            figure.set_layout_engine(None)
+        for kind in kinds:
+            drawn[kind] = io.BytesIO()
+            figure.savefig(drawn[kind], format=kind, metadata=metadata[kind], **options[kind])
+        figure.set_layout_engine(engine)
     _tell(told, base.name)
-    figure.set_layout_engine("none")
     written = []
-    for kind in kinds:
-        whole = io.BytesIO()
-        with warnings.catch_warnings():
-            warnings.filterwarnings("ignore", "Glyph .* missing")  # told above
-            figure.savefig(whole, format=kind, metadata=metadata[kind], **options[kind])
+    for kind, whole in drawn.items():
         content = _with_steady_names(whole.getvalue()) if kind == "svg" else whole.getvalue()
         written.append(write(base.with_name(f"{base.name}.{kind}"), content))
-    figure.set_layout_engine(engine)
     if points is not None:
         written.append(write(base.with_name(f"{base.name}.csv"), points.to_csv(index=False).encode()))
     return written
 
 
 def _tell(told: list[warnings.WarningMessage], name: str) -> None:
-    """Warns once of each letter that no font has, and passes on other warnings."""
+    """Warns once of each letter that no font has, and passes on other warnings, also once."""
     missing: dict[str, None] = {}
-    for each in told:
+    for each in {str(one.message): one for one in told}.values():
         if found := re.search(r"Glyph (\d+) .*missing", str(each.message)):
             missing[chr(int(found[1]))] = None
         else:

@@ -26,8 +26,9 @@ def main(words: list[str]) -> int:
         return 0 if words else 2
     shorten_warnings()
     try:
+        # the description comes once the tables are there; until then, Ctrl-C ends this process at once
+        told: dict[str, Any] = {} if sys.stdin is None or sys.stdin.isatty() else json.loads(sys.stdin.buffer.read() or "{}")
         with interruptible():
-            told: dict[str, Any] = {} if sys.stdin is None or sys.stdin.isatty() else json.loads(sys.stdin.buffer.read() or "{}")
             show = _Progress()
             page = write_page(
                 words if len(words) > 1 else words[0], told.get("out", ""), told, jobs=os.cpu_count() or 1,

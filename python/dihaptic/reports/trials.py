@@ -131,10 +131,13 @@ def _shown(session: Session, trials: list[_Trial], strips: list[tuple[str, str, 
     parts = [slice(*np.searchsorted(t, [trial.start, trial.stop]) + [0, 1]) for trial in trials]
     strips_of_all = [[curve.of(session, every) for curve in curves] for _, _, curves in strips]
     phases = session.table("phases") if "phases" in session.tables else pd.DataFrame()
+    if not {"start_time", "phase"} <= set(phases):
+        phases = pd.DataFrame({"start_time": [], "phase": []})
+    begins, names = phases["start_time"].to_numpy(float), phases["phase"].astype(str).to_numpy()
     return [
         {
             "name": trial.name, "about": trial.about, "seconds": round(trial.stop - trial.start, 3),
-            "marks": _marks(phases, trial), "values": [[_packed(curve[part]) for curve in curves] for curves in strips_of_all],
+            "marks": _marks(begins, names, trial), "values": [[_packed(curve[part]) for curve in curves] for curves in strips_of_all],
         }
         for trial, part in zip(trials, parts)
     ]  # fmt: skip
@@ -144,10 +147,7 @@ def _packed(values: npt.NDArray[np.float32]) -> str:
     return base64.b64encode(values.tobytes()).decode()
 
 
-def _marks(phases: pd.DataFrame, trial: _Trial) -> list[dict[str, Any]]:
-    if not {"start_time", "phase"} <= set(phases):
-        return []
-    own = phases[(phases["start_time"] >= trial.start) & (phases["start_time"] < trial.stop)]
-    return [
-        {"t": round(t - trial.start, 3), "name": str(name)} for t, name in zip(own["start_time"], own["phase"])
-    ]
+def _marks(begins: npt.NDArray[np.float64], names: npt.NDArray[np.object_], trial: _Trial) -> list[dict[str, Any]]:
+    """The phases that begin within a trial; `begins`: when each phase begins [s]."""
+    own = np.flatnonzero((begins >= trial.start) & (begins < trial.stop))
+    return [{"t": round(float(begins[i]) - trial.start, 3), "name": names[i]} for i in own]
