@@ -151,7 +151,11 @@ class Solve {
 
     void ask(Route route, bool first, const SolveSettings& settings, SolveDetail* detail) {
         stats_.route = route;
+        // newton, which answers nearly everything, is useless with no work left to do it with
+        const bool hands_on = first && route != Route::newton && route != Route::sequential_impulse;
+        if (hands_on) system_.work().begin_half();
         outcome_ = by(route, first, settings, detail);
+        if (hands_on) system_.work().begin_exact();
         stats_.iterations += outcome_.iterations;
         const int of_each = route == Route::sequential_impulse ? kVisitsPerSweep : kVisitsPerStep;
         counted_ += static_cast<int>(r_.size()) * of_each * outcome_.iterations;

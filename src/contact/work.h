@@ -40,6 +40,8 @@ class Work {
     }
     /// From here on, the work is done by exact methods.
     void begin_exact() noexcept { limit_ = exact_; }
+    /// Like begin_exact(), but half of what is left of that work is reserved for another method.
+    void begin_half() noexcept { limit_ = spent_ + (exact_ - spent_) / 2; }
     /// From here on, the work is done by sweeps, which are allowed at least this many visits.
     void begin_sweeps(int64_t least) noexcept { limit_ = std::max(end_, spent_ + least); }
 
