@@ -25,17 +25,22 @@ struct BodyWay {
 
 class BodyDrag {
   public:
-    /// Starts a drag. The body is held at the point where the ray through the pointer meets it.
-    BodyDrag(const view::Seen& held, const view::Ray& ray) : held_W_(held.p_W), ray_(ray) {}
+    /// Starts a drag of a body with the pose X_WB. The body is held at the point where the ray
+    /// through the pointer meets it.
+    BodyDrag(const view::Seen& held, const view::Ray& ray, const Pose& X_WB)
+        : held_W_(held.p_W), ray_(ray), X_WB_first_(X_WB) {}
 
     /// Follows a pointer movement by `pixels`; `ray` is the new ray through the pointer.
     void follow(const view::Ray& ray, const QPointF& pixels, Qt::KeyboardModifiers keys);
     const BodyWay& way() const { return way_; }
+    /// The pose to which the body has been dragged.
+    Pose X_WB() const { return way_.of(X_WB_first_); }
 
   private:
     static constexpr double kTurn = 0.008;  // [rad/pixel]
     Vec3 held_W_;
     view::Ray ray_;  // ray through the pointer when the body last followed it
+    Pose X_WB_first_;
     BodyWay way_;
 };
 

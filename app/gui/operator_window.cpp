@@ -261,12 +261,13 @@ void OperatorWindow::end(int signal) {
     const bool in_session = control_.runner().running() || control_.cut();
     std::fprintf(stderr, "%s: %s\n", strsignal(signal),
                  in_session ? "force is off, and the session ends" : "the window closes");
-    ended_ = true;
+    closing_ = Closing::by_signal;
     close();
 }
 
 void OperatorWindow::end_unseen() {
-    if (std::exchange(lost_, true)) return;
+    if (closing_ == Closing::by_signal || closing_ == Closing::unseen) return;
+    closing_ = Closing::unseen;
     std::fprintf(stderr, "another program has closed the window%s\n",
                  control_.runner().running() ? ": the session ends" : "");
     close();
@@ -278,7 +279,7 @@ void OperatorWindow::show_end() {
     scene_->set_hand(nullptr, false);
     if (const auto& plan = control_.plan(); plan && plan->rig.patch)
         first_scene().set_patch(view::PatchLook{*plan->rig.patch});
-    if (closing_) {
+    if (closing_ != Closing::no) {
         close();
     } else if (control_.stale()) {
         reload();
@@ -368,15 +369,17 @@ void OperatorWindow::log(const QString& text, bool problem) {
 void OperatorWindow::closeEvent(QCloseEvent* event) {
     if (control_.runner().running()) {
         // the window closes as soon as the session's files are written
-        closing_ = true;
+        if (closing_ == Closing::no) closing_ = Closing::after_session;
         control_.runner().end();
         log(tr("ending the session ..."));
         event->ignore();
         return;
     }
-    if (ended_ || lost_) {
+    const bool now = closing_ == Closing::by_signal || closing_ == Closing::unseen;
+    if (now) {
         leave_text();  // it is too late to ask the user
     } else if (!may_leave_text()) {
+        closing_ = Closing::no;
         return event->ignore();
     }
     QSettings settings;
@@ -387,7 +390,8 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
     event->accept();
     // windows with recorded sessions must not keep the program running
     QMetaObject::invokeMethod(qApp, &QApplication::closeAllWindows, Qt::QueuedConnection);
-    if (ended_ || lost_) QCoreApplication::exit(ended_ ? 1 : 0);  // exits even if a dialog is open
+    // exits even if a dialog is open
+    if (now) QCoreApplication::exit(closing_ == Closing::by_signal ? 1 : 0);
 }
 
 }  // namespace dihaptic::gui

@@ -182,9 +182,10 @@ class OperatorWindow : public QMainWindow {
     QMenu* camera_menu_ = nullptr;
     QElapsedTimer since_refresh_;
     std::optional<MouseHand> mouse_;  ///< mouse-controlled hand of the running session
-    bool closing_ = false;
-    bool ended_ = false;  ///< whether a signal asked the program to end
-    bool lost_ = false;   ///< whether another program destroyed the window
+    /// Why the window closes: as soon as the session has ended, because the user wants it to;
+    /// because a signal asked the program to end; or because another program destroyed the window.
+    enum class Closing { no, after_session, by_signal, unseen };
+    Closing closing_ = Closing::no;
 };
 
 }  // namespace dihaptic::gui

@@ -2,21 +2,17 @@
 // hand.
 #pragma once
 
-#include <QElapsedTimer>
-#include <QLabel>
 #include <QOpenGLWidget>
-#include <QTimer>
 #include <deque>
 #include <memory>
 #include <optional>
 
 #include "body_drag.h"
-#include "mouse_hand.h"
-#include "outlets/head_tracker.h"
-#include "page_view.h"
-#include "questions_view.h"
+#include "drawn_detail.h"
+#include "hand_input.h"
+#include "scene_words.h"
+#include "seen_display.h"
 #include "servo/workspace_turn.h"
-#include "sign_label.h"
 #include "view/scene_view.h"
 
 namespace dihaptic::gui {
@@ -45,7 +41,7 @@ class SceneWidget : public QOpenGLWidget {
     /// Shows the picked body displaced by `way`, until the next frame or scene.
     void move_picked(const BodyWay& way);
     /// The squeeze that the keys currently held down command.
-    MouseHand::Squeeze keys() const { return keys_; }
+    MouseHand::Squeeze keys() const { return hand_.keys(); }
 
     const std::vector<view::Camera>& cameras() const { return cameras_; }
     void set_camera(const std::string& name);
@@ -59,7 +55,7 @@ class SceneWidget : public QOpenGLWidget {
     /// tracked.
     void set_head(const outlets::HeadPose& head);
     /// The pose of the head for which the last picture was drawn; nullopt if the eyes were at rest.
-    const std::optional<outlets::HeadPose>& shown_to() const { return shown_to_; }
+    const std::optional<outlets::HeadPose>& shown_to() const { return display_.shown_to(); }
     /// Selects what is drawn in addition to the scene. `path`: the object's path during the last
     /// seconds.
     struct Layers {
@@ -82,18 +78,20 @@ class SceneWidget : public QOpenGLWidget {
     /// The frame that the last picture showed.
     const view::Shown& shown() const { return shown_; }
     /// Sets the large text over the picture; an empty text removes it.
-    void set_banner(const QString& text);
+    void set_banner(const QString& text) { words_.set_banner("", text); }
     /// Shows the sign of a session in place of that text.
-    void set_sign(const QString& word, const QString& text, Sign sign);
+    void set_sign(const QString& word, const QString& text, Sign sign) {
+        words_.set_banner(word, text, sign);
+    }
     /// Sets the hint how the mouse moves the hand; an empty text removes it. While the hand is held
     /// in place (H), that is shown instead.
-    void set_help(const QString& text);
+    void set_help(const QString& text) { words_.set_help(text); }
     /// Sets the page shown instead of the scene (page_view.h); if both arguments are empty, the
     /// scene is shown.
-    void set_page(const QString& text, const QString& picture);
+    void set_page(const QString& text, const QString& picture) { words_.set_page(text, picture); }
     /// Shows the questions that a task currently asks; nullopt if there are none.
-    void ask(const std::optional<Asked>& asked);
-    const QuestionsView& questions() const { return *questions_; }
+    void ask(const std::optional<Asked>& asked) { words_.ask(asked); }
+    const QuestionsView& questions() const { return words_.questions(); }
 
     QSize sizeHint() const override { return {900, 640}; }
 
@@ -131,7 +129,6 @@ class SceneWidget : public QOpenGLWidget {
 
   private:
     void release();
-    void set_key(const QKeyEvent& event, bool down);
     /// Moves the camera by a key, as the mouse would. Returns false if the key does not move the
     /// camera.
     bool look_by_key(const QKeyEvent& event);
@@ -142,56 +139,29 @@ class SceneWidget : public QOpenGLWidget {
     /// Moves the camera by a mouse movement of `way` pixels.
     void look(const QPointF& way, bool pan);
     void zoom(double notches);
-    void show_banner();
-    void show_help();
-    void place_labels();
     void make_view();
-    void choose_detail();
     void draw_scene();
-    display::Display seen_display();
-    /// To be called when a picture has appeared on the screen: the next picture is for the other
-    /// eye.
-    void take_turns();
-    void draw_words();
 
     scene::Scene scene_;
     frame::Frame frame_;
     std::unique_ptr<view::SceneView> view_;
     std::vector<view::Camera> cameras_;
     view::Camera camera_;
-    std::optional<display::Display> display_;
-    std::optional<outlets::HeadPose> head_, shown_to_;
-    bool right_eye_ =
-        false;  // whether the right eye's picture is next, on a display for both eyes in turn
-    QElapsedTimer since_swap_;
-    /// Holds the page, the question and the texts if they are drawn into the picture, for each eye
-    /// or for a mirror; null if they overlay the scene.
-    std::unique_ptr<QWidget> words_;
+    SeenDisplay display_;
+    SceneWords words_{*this};
     std::optional<size_t> picked_;
     std::optional<BodyDrag> drag_;  // drag of the picked body while the mouse button is down
-    Pose X_WB_dragged_;             // pose of the dragged body at the start of the drag
     Layers layers_;
     std::optional<view::PatchLook> patch_;
-    std::optional<bool> fine_;   // if unset, the renderer decides
-    QTimer still_;               // runs out when nothing has moved for a while
-    QElapsedTimer since_frame_;  // the last call of show_frame()
-    bool is_still_ = false;      // whether the next picture shows what the last one showed
+    DrawnDetail detail_{[this] { update(); }};
     std::vector<view::Workspace> workspaces_;
     servo::WorkspaceTurn turn_;
     std::deque<Vec3> path_;
     view::Shown shown_;
     int64_t presented_ = -1;  // last tick for which presented() was emitted
-    MouseHand* hand_ = nullptr;
-    bool squeezes_ = false;  // whether the wheel squeezes the hand instead of moving it in depth
-    bool stays_ = false;     // whether the hand stays in place while the pointer moves
-    MouseHand::Squeeze keys_ = MouseHand::Squeeze::none;
+    HandInput hand_;
     QPointF pointer_;
     QPointF pressed_;  // position where a mouse button was pressed
-    PageView* page_;
-    QuestionsView* questions_;
-    SignLabel* banner_;
-    SignLabel* held_;
-    QLabel* help_;
 };
 
 }  // namespace dihaptic::gui

@@ -39,7 +39,6 @@ namespace dihaptic::gui {
 namespace {
 
 constexpr int kSliderSteps = 100000;
-constexpr int kPicture = 16;  // time between pictures while playing [ms]
 
 /// The rows of a table of the session; empty if it has no table with that name.
 template <class Row>
@@ -100,7 +99,6 @@ SessionPlayer::SessionPlayer(const std::string& folder, QWidget* parent)
     read_.setSingleShot(true);
     connect(chart_, &TimeChart::stretch_changed, this, [this] { read_.start(120); });
     connect(&read_, &QTimer::timeout, this, &SessionPlayer::read_curves);
-    connect(&timer_, &QTimer::timeout, this, &SessionPlayer::go_on);
     resize(QSize(1200, 860).boundedTo(room_on(*screen())));
     choose_curves({"grip_force", "load_force"});
     go_to(log_.begin());
@@ -126,7 +124,7 @@ QWidget* SessionPlayer::make_controls() {
     button(shapes::kPrevious, tr("Previous moment (Page Up)"), [this] { next_moment(-1); });
     button(shapes::kBack, tr("Previous tick (Left)"), [this] { step(-1); });
     play_ =
-        button(shapes::kPlay, tr("Play, or stop (Space)"), [this] { play(!timer_.isActive()); });
+        button(shapes::kPlay, tr("Play, or stop (Space)"), [this] { play(!playback_.plays()); });
     play_->setText(tr("Play"));
     play_->setFixedWidth(90);
     button(shapes::kForward, tr("Next tick (Right)"), [this] { step(1); });
@@ -138,7 +136,7 @@ QWidget* SessionPlayer::make_controls() {
         speed->addItem(QString("%1 x").arg(times), times);
     speed->setCurrentText("1 x");
     connect(speed, &QComboBox::currentIndexChanged, this,
-            [this, speed] { speed_ = speed->currentData().toDouble(); });
+            [this, speed] { playback_.set_speed(speed->currentData().toDouble()); });
     layout->addWidget(speed);
     slider_ = new QSlider(Qt::Horizontal);
     slider_->setAccessibleName(tr("Time"));
@@ -332,15 +330,13 @@ void SessionPlayer::go_to(double time) {
 void SessionPlayer::play(bool on) {
     play_->setText(on ? tr("Stop") : tr("Play"));
     play_->setIcon(icon(on ? shapes::kPause : shapes::kPlay));
-    if (!on) return timer_.stop();
+    if (!on) return playback_.stop();
     if (time_ >= log_.end()) go_to(log_.begin());
-    clock_.start();
-    timer_.start(kPicture);
+    playback_.start();
 }
 
-void SessionPlayer::go_on() {
-    go_to(time_ + speed_ * 1e-9 * static_cast<double>(clock_.nsecsElapsed()));
-    clock_.restart();
+void SessionPlayer::go_on(double passed) {
+    go_to(time_ + passed);
     if (time_ >= log_.end()) play(false);
 }
 
@@ -412,7 +408,8 @@ void SessionPlayer::save_video() {
                                        tr("Videos (*.mp4)"),
                                        {".mp4"}},
                                       this),
-                    chart_->begin(), chart_->end(), speed_, [this](double time) { go_to(time); }};
+                    chart_->begin(), chart_->end(), playback_.speed(),
+                    [this](double time) { go_to(time); }};
     if (film.file.isEmpty()) return;
     const double before = time_;
     try {
@@ -429,7 +426,7 @@ void SessionPlayer::keyPressEvent(QKeyEvent* event) {
     const bool far = event->modifiers().testFlag(Qt::ShiftModifier);
     switch (event->key()) {
         case Qt::Key_Space:
-            play(!timer_.isActive());
+            play(!playback_.plays());
             break;
         case Qt::Key_Left:
             step(far ? -100 : -1);

@@ -2,12 +2,12 @@
 // of events. Two windows can be linked to compare sessions.
 #pragma once
 
-#include <QElapsedTimer>
 #include <QMainWindow>
 #include <QTimer>
 #include <memory>
 
 #include "curve_reader.h"
+#include "playback.h"
 #include "recording/log_browser.h"
 #include "recording/session.h"
 #include "task/run/recorded.h"
@@ -64,7 +64,7 @@ class SessionPlayer : public QMainWindow {
     void choose_curves(const QStringList& expressions);
     void save_curves();
     void play(bool on);
-    void go_on();
+    void go_on(double passed);
     void step(int frames);
     void next_moment(int way);
     QString own_name(const QString& what) const;
@@ -75,7 +75,6 @@ class SessionPlayer : public QMainWindow {
     scene::Scene scene_;
     recording::LogBrowser log_;
     double time_ = 0;
-    double speed_ = 1;
     struct Start {
         double time;  // [s]
         int trial;
@@ -87,8 +86,7 @@ class SessionPlayer : public QMainWindow {
     std::vector<task::RecordedValue> values_;
     QStringList expressions_;
     CurveReader reader_;
-    QTimer timer_;
-    QElapsedTimer clock_;
+    Playback playback_{[this](double passed) { go_on(passed); }};
     SceneWidget* view_;
     TimeChart* chart_;
     QSlider* slider_ = nullptr;

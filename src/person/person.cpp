@@ -101,7 +101,8 @@ std::vector<std::vector<TaskPlan::Step>> steps_of(const TaskPlan& plan, size_t f
 }  // namespace
 
 Person::Draws::Draws(uint64_t seed, const std::string& id)
-    : others(seed, fmt::format("person {}", id)),
+    : seed(seed),
+      others(seed, fmt::format("person {}", id)),
       lifts(seed, fmt::format("lifts of {}", id)),
       presses(seed, fmt::format("presses of {}", id)) {}
 
@@ -110,47 +111,44 @@ Person::Person(const Traits& traits, const Situation& situation)
       plan_(situation.task),
       numbers_(*plan_),
       impedance_(situation.hand.impedance),
-      seed_(situation.seed),
-      draws_(seed_, traits.id),
-      felt_(first_finger(situation), own_places(situation), ForceMemory::kLongestLag,
-            situation.tick),
-      start_{felt_.places().front().centre.value_or(situation.hand.centre),
-             felt_.places().front().aperture.value_or(situation.hand.aperture), 0},
-      eyes_(traits.visual_delay, felt_.first(), felt_.places().size(), situation.tick),
-      touch_(felt_.first(), sides_of(felt_.places()), frictions_of(situation.scene, felt_.first()),
-             situation.tick),
-      strains_(traits.visual_delay, situation.tick),
-      targets_(plan_->task.regions.size()),
-      cursor_(plan_->states),
-      steps_(steps_of(*plan_, felt_.first())),
+      draws_(situation.seed, traits.id),
+      senses_{FeltHand(first_finger(situation), own_places(situation), ForceMemory::kLongestLag,
+                       situation.tick),
+              Eyes(traits.visual_delay, first_finger(situation), own_places(situation).size(),
+                   situation.tick),
+              Touch(first_finger(situation), sides_of(own_places(situation)),
+                    frictions_of(situation.scene, first_finger(situation)), situation.tick),
+              Past<Strain>(traits.visual_delay, situation.tick),
+              SeenTargets(plan_->task.regions.size()),
+              HeldCursor(plan_->states),
+              traits.visual_delay},
+      start_{senses_.felt.places().front().centre.value_or(situation.hand.centre),
+             senses_.felt.places().front().aperture.value_or(situation.hand.aperture), 0},
+      steps_(steps_of(*plan_, senses_.felt.first())),
       memories_(traits, *plan_, steps_),
-      grip_(traits, looks_of(situation.scene, felt_.first(), traits, situation.seed),
+      grip_(traits, looks_of(situation.scene, senses_.felt.first(), traits, situation.seed),
             situation.tick) {
     for (const scene::Body& body : situation.scene.bodies) bodies_.push_back(body.name);
     for (const std::string& name : plan_->phases()) phases_.push_back({name, 0, 0});
-    if (plan_->first_fingers.size() == 1 && felt_.places().size() < situation.scene.fingers.size())
+    if (plan_->first_fingers.size() == 1 &&
+        senses_.felt.places().size() < situation.scene.fingers.size())
         other_.emplace(plan_, situation.hand, scene::finger_names(situation.scene));
     restart();
 }
 
 void Person::restart() {
-    draws_ = Draws(seed_, traits_.id);
+    draws_ = Draws(draws_.seed, traits_.id);
     if (other_) other_->restart();
     now_ = 0;
-    eyes_.restart();
-    touch_.restart();
-    felt_.restart();
-    strains_.clear();
+    senses_.restart();
     grip_.restart();
     memories_.restart(before_.states);
     recall_bodies();
-    targets_.restart();
     aim_.rest(start_);
     numbers_.restart();
     cue_ = {};
     action_ = {};
     reach_ = {};
-    off_felt_.setZero();
     answers_.restart();
 }
 
@@ -190,10 +188,10 @@ double Person::noisy(double value, double share) noexcept {
 }
 
 hand::FingerTarget Person::do_target(int finger, double t) const noexcept {
-    const size_t own = static_cast<size_t>(finger) - felt_.first();
-    if (own >= felt_.places().size())
+    const size_t own = static_cast<size_t>(finger) - senses_.felt.first();
+    if (own >= senses_.felt.places().size())
         return other_ ? other_->target(finger, t) : hand::FingerTarget{};
-    const hand::FingerPlace& place = felt_.places()[own];
+    const hand::FingerPlace& place = senses_.felt.places()[own];
     const Aim aim = aim_.at(t);
     const Aim rate = aim_.rate(t);
     hand::FingerTarget target;
@@ -214,30 +212,31 @@ hand::FingerTarget Person::do_target(int finger, double t) const noexcept {
     const double k = stiffness();
     // if an object yields under the fingers, they press less
     const double yields =
-        std::clamp((action_.touched - felt_.half_aperture() - kYields) / kYields, 0.0, 1.0);
-    target.p_WT += (felt_.half_aperture() - (1 - yields) * grip_.squeeze() / k) * place.side;
-    if (grip_.phase() == GripPhase::load) target.p_WT.z() = felt_.centre().z() + place.offset.z();
-    target.p_WT += (aim.load * Vec3::UnitZ() + grip_.inertial()) / (felt_.fingers() * k);
+        std::clamp((action_.touched - senses_.felt.half_aperture() - kYields) / kYields, 0.0, 1.0);
+    target.p_WT += (senses_.felt.half_aperture() - (1 - yields) * grip_.squeeze() / k) * place.side;
+    if (grip_.phase() == GripPhase::load)
+        target.p_WT.z() = senses_.felt.centre().z() + place.offset.z();
+    target.p_WT += (aim.load * Vec3::UnitZ() + grip_.inertial()) / (senses_.felt.fingers() * k);
     return target;
 }
 
 void Person::do_see(const frame::Frame& frame) noexcept {
     if (other_) other_->see(frame);
-    eyes_.take(frame);
+    senses_.eyes.take(frame);
     tick_ = seconds(frame.time) - now_;
     now_ = seconds(frame.time);
-    felt_.feel(frame, now_, tick_);
+    senses_.felt.feel(frame, now_, tick_);
     stray();
-    strains_.add(strain(frame));
+    senses_.strains.add(strain(frame));
     const bool held = grip_.holds();
     const bool loads = grip_.phase() == GripPhase::load;
-    grip_.tick(now_, touch_.feel(frame), felt_.places().front().side, aim_);
+    grip_.tick(now_, senses_.touch.feel(frame), senses_.felt.places().front().side, aim_);
     // after opening, the hand continues from its current aperture
     if (held && !grip_.holds())
-        aim_.shift({Vec3::Zero(), 2 * felt_.half_aperture() - aim_.at(now_).aperture, 0});
+        aim_.shift({Vec3::Zero(), 2 * senses_.felt.half_aperture() - aim_.at(now_).aperture, 0});
     if (loads && grip_.phase() != GripPhase::load)
-        aim_.shift({(felt_.centre().z() - aim_.at(now_).centre.z()) * Vec3::UnitZ(), 0, 0});
-    const Sight& sight = eyes_.sight();
+        aim_.shift({(senses_.felt.centre().z() - aim_.at(now_).centre.z()) * Vec3::UnitZ(), 0, 0});
+    const Sight& sight = senses_.eyes.sight();
     follow_cues(sight);
     numbers_.follow(cue_.trial, cue_.attempt, frame.task.variables, cue_.phase - 1);
     feel_strain();
@@ -271,10 +270,11 @@ void Person::await_trial() noexcept {
 void Person::follow_cues(const Sight& sight) noexcept {
     if (sight.trial < 1 || sight.phase == task::kBetween) return await_trial();
     cue_.between = false;
-    targets_.see(sight);
+    senses_.targets.see(sight);
     const bool new_attempt = sight.trial != cue_.trial || sight.attempt != cue_.attempt;
     if (!new_attempt && sight.phase == cue_.phase) return;
-    cursor_.enter(sight.phase - 1, new_attempt, {now_ - traits_.visual_delay, felt_hand()});
+    senses_.cursor.enter(sight.phase - 1, new_attempt,
+                         {now_ - traits_.visual_delay, senses_.felt_hand()});
     if (new_attempt) begin_attempt();
     cue_.trial = sight.trial;
     cue_.attempt = sight.attempt;
@@ -293,25 +293,9 @@ void Person::follow_cues(const Sight& sight) noexcept {
     action_.wait_until = begins;
 }
 
-/// Felt position of the hand at the time that the person currently sees.
-const Vec3& Person::felt_hand() const noexcept {
-    return strains_.before(traits_.visual_delay).hand;
-}
-
-/// Position of the hand as seen or, while the display holds the cursor, as felt.
-const Vec3& Person::hand(const Sight& sight) const noexcept {
-    return cursor_.is_held() ? felt_hand() : sight.hand;
-}
-
-/// Felt position of the hand at the time that the display shows, which is earlier if the cursor is
-/// held.
-const Vec3& Person::felt_where_shown() const noexcept {
-    return cursor_.is_held() ? cursor_.shown().felt : felt_hand();
-}
-
 /// Whether the display still shows the hand before the start of the current reach.
 bool Person::shows_earlier_reach() const noexcept {
-    return cursor_.is_held() && cursor_.shown().time < reach_.begin;
+    return senses_.cursor.is_held() && senses_.cursor.shown().time < reach_.begin;
 }
 
 /// Lets go of the object or, if nothing is held, moves the hand to its rest position: objects are
@@ -332,7 +316,7 @@ void Person::rest() noexcept {
 void Person::go_on(const Sight& sight) noexcept {
     if (answers_.is_due(now_)) {
         answers_.answer(traits_, plan_->states[static_cast<size_t>(cue_.phase - 1)],
-                        {sight.hand, felt_.centre()}, now_, draws_.others);
+                        {sight.hand, senses_.felt.centre()}, now_, draws_.others);
     }
     switch (action_.doing) {
         case Doing::nothing:
@@ -376,14 +360,15 @@ void Person::try_again(const Sight& sight) noexcept {
 }
 
 double Person::stiffness() const noexcept {
-    return impedance_.stiffness + impedance_.stiffness_per_force * felt_.force();
+    return impedance_.stiffness + impedance_.stiffness_per_force * senses_.felt.force();
 }
 
 void Person::go_on_moving(const Sight& sight) noexcept {
-    const bool closes = action_.way.aperture < 0 && felt_.places().size() > 1;
+    const bool closes = action_.way.aperture < 0 && senses_.felt.places().size() > 1;
     if (closes && !grip_.holds() && grip_.felt().held) {
-        grip_.close(now_, stiffness() * (felt_.half_aperture() - aim_.at(now_).aperture / 2));
-        action_.touched = felt_.half_aperture();
+        grip_.close(now_,
+                    stiffness() * (senses_.felt.half_aperture() - aim_.at(now_).aperture / 2));
+        action_.touched = senses_.felt.half_aperture();
         action_.doing = Doing::preloading;
         return;
     }
@@ -407,14 +392,14 @@ void Person::finish_step(const Sight& sight) noexcept {
 Vec3 Person::target(const Sight& sight, const TaskPlan::Step& step) const noexcept {
     const auto region = static_cast<size_t>(step.step.reach.index);
     // if the region was never seen, its planned position is used
-    return targets_.position(region, sight).value_or(numbers_.cell().p_W[region]) +
+    return senses_.targets.position(region, sight).value_or(numbers_.cell().p_W[region]) +
            numbers_.of(step.step.move);
 }
 
 void Person::begin_step(const Sight& sight) noexcept {
     const TaskPlan::Step& next = steps()[action_.step];
     action_.corrections = 0;
-    const double aperture = grip_.holds() ? 2 * felt_.half_aperture() : aim_.goal().aperture;
+    const double aperture = grip_.holds() ? 2 * senses_.felt.half_aperture() : aim_.goal().aperture;
     const double wanted = next.step.aperture ? numbers_.of(*next.step.aperture) : aperture;
     if (grip_.phase() == GripPhase::preload) {
         action_.doing = Doing::waiting;  // waits until the fingers have settled
@@ -446,7 +431,7 @@ void Person::begin_step(const Sight& sight) noexcept {
 
 void Person::move(const Aim& way, double duration, const Sight& sight) noexcept {
     if (way.centre.norm() > kReach) {
-        answers_.begin_movement({sight.hand, felt_.centre()});
+        answers_.begin_movement({sight.hand, senses_.felt.centre()});
     }
     if (grip_.phase() == GripPhase::lifted && way.centre.norm() > kReach)
         grip_.carry(way.centre.normalized());

@@ -9,13 +9,10 @@
 #include <optional>
 
 #include "person/answers.h"
-#include "person/eyes.h"
-#include "person/felt_hand.h"
 #include "person/grip.h"
-#include "person/held_cursor.h"
 #include "person/learned.h"
 #include "person/reach.h"
-#include "person/seen_targets.h"
+#include "person/senses.h"
 #include "person/state_memories.h"
 #include "person/strokes.h"
 #include "person/traits.h"
@@ -61,6 +58,7 @@ class Person final : public task::SeeingDriver {
     struct Draws {
         Draws(uint64_t seed, const std::string& id);
 
+        uint64_t seed;
         Random others;
         Random lifts;    // noise of lifts
         Random presses;  // noise of learned forces
@@ -121,9 +119,6 @@ class Person final : public task::SeeingDriver {
     void watch_reach(const Sight& sight) noexcept;
     void end_reach() noexcept;
     bool correct(const Sight& sight) noexcept;
-    const Vec3& felt_hand() const noexcept;
-    const Vec3& hand(const Sight& sight) const noexcept;
-    const Vec3& felt_where_shown() const noexcept;
     bool shows_earlier_reach() const noexcept;
     bool from_above(const Vec3& displacement) const noexcept;
     Vec3 made_for(const Vec3& displacement) const noexcept;
@@ -142,21 +137,13 @@ class Person final : public task::SeeingDriver {
     hand::Impedance impedance_;
     std::optional<task::TaskHand> other_;  // moves the fingers of other hands, which feel nothing
     std::vector<Phase> phases_;
-    uint64_t seed_;
     Draws draws_;
 
     // senses
     double now_ = 0;   // [s]
     double tick_ = 0;  // time since the last Frame [s]
-    FeltHand felt_;
+    Senses senses_;
     Aim start_;
-    Eyes eyes_;
-    Touch touch_;
-    Past<Strain> strains_;  // read with the delay of sight, to be compared with it
-    SeenTargets targets_;
-    HeldCursor cursor_;
-    Vec3 off_felt_ =
-        Vec3::Zero();  // last seen distance from the felt hand to the displayed one [m]
 
     // memory
     Learned before_;  // what was learned in earlier sessions

@@ -51,15 +51,16 @@ Vec3 rotated(const Vec3& rotation, const Vec3& v) noexcept {
 void Person::give_way() noexcept {
     const bool reaches =
         action_.step < steps().size() && steps()[action_.step].step.reach.index >= 0;
-    if (!reaches || grip_.holds() || felt_.velocity().norm() > kDrifts || now_ < aim_.end()) return;
-    const Vec3 off = felt_.centre() - aim_.at(now_).centre;
+    if (!reaches || grip_.holds() || senses_.felt.velocity().norm() > kDrifts || now_ < aim_.end())
+        return;
+    const Vec3 off = senses_.felt.centre() - aim_.at(now_).centre;
     aim_.shift({std::min(1.0, tick_ / kGiving) * off, 0, 0});
 }
 
 /// Whether the hand makes a movement in two parts: an open hand approaches objects from above and
 /// moves upward to leave them, so that it does not sweep them away.
 bool Person::from_above(const Vec3& displacement) const noexcept {
-    return felt_.places().size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
+    return senses_.felt.places().size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
 }
 
 /// The movement that the hand must make so that the display shows `displacement`, as far as the
@@ -75,7 +76,7 @@ Vec3 Person::made_for(const Vec3& displacement) const noexcept {
 /// Plans a reach from where the hand is seen to `goal`. Returns the hand's movement.
 Vec3 Person::plan_reach(const Sight& sight, const Vec3& goal) noexcept {
     const Vec3 displacement = look(goal, traits_.visual_noise, draws_.others) -
-                              look(hand(sight), traits_.visual_noise, draws_.others);
+                              look(senses_.hand(sight), traits_.visual_noise, draws_.others);
     if (displacement.norm() < kReach) return made_for(displacement);
     end_reach();
     const auto state = static_cast<size_t>(action_.state - 1);
@@ -87,8 +88,8 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& goal) noexcept {
               .number = reach_.number + 1,
               .state = state,
               .shows = unseen ? traits_.unseen_share : 1,
-              .from = hand(sight),
-              .felt_from = felt_hand(),
+              .from = senses_.hand(sight),
+              .felt_from = senses_.felt_hand(),
               .goal = goal,
               .way = displacement};
     const Vec3 made = made_for(displacement);
@@ -102,7 +103,7 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& goal) noexcept {
     const double sd = std::hypot(traits_.direction_noise, traits_.adapted_noise * learned) *
                       (from_above(displacement) ? kGuided : 1);
     const Vec3 way = noisy(1, traits_.extent_noise) * rotated(sd * noise, made);
-    reach_.stray.whole = astray(way, goal - hand(sight));
+    reach_.stray.whole = astray(way, goal - senses_.hand(sight));
     return way;
 }
 
@@ -128,24 +129,26 @@ bool Person::pushed(const frame::Frame& frame) const noexcept {
 /// this state and is not being pushed now, small strains are attributed to the hand's own noise.
 Strain Person::strain(const frame::Frame& frame) const noexcept {
     Strain out;
-    out.hand = felt_.centre();
+    out.hand = senses_.felt.centre();
     if (!reach_.going || reach_.duration == 0) return out;
     const double done = (now_ - reach_.begin) / reach_.duration;
     const double delayed = done - reach_.pushes.lag / reach_.duration;
     if (delayed >= 1 || (memory().force.empty() && !pushed(frame))) return out;
     const Aim aim = aim_.at(now_);
     const Aim rate = aim_.rate(now_);
-    const Vec3 off = felt_.centre() - aim.centre + reach_.stray.so_far - reach_.stray.followed;
-    const Vec3 drift = felt_.velocity() - rate.centre + reach_.stray.rate - reach_.stray.following;
+    const Vec3 off =
+        senses_.felt.centre() - aim.centre + reach_.stray.so_far - reach_.stray.followed;
+    const Vec3 drift =
+        senses_.felt.velocity() - rate.centre + reach_.stray.rate - reach_.stray.following;
     out.push_W = stiffness() * off + impedance_.damping * drift;
     if (grip_.holds()) {
-        out.push_W -= grip_.inertial() / felt_.fingers();
+        out.push_W -= grip_.inertial() / senses_.felt.fingers();
         out.push_W.z() = 0;  // the weight of an object has a memory of its own
     }
     // a push that the hand opposed is no longer felt, but it did act
     out.push_W -=
         aim_.rate(now_ - reach_.pushes.lag).centre.dot(reach_.along) * reach_.pushes.opposed;
-    if (delayed > 0) out.speed = felt_.velocity_before(reach_.pushes.lag).dot(reach_.along);
+    if (delayed > 0) out.speed = senses_.felt.velocity_before(reach_.pushes.lag).dot(reach_.along);
     out.time = now_ - reach_.begin;
     out.reach = reach_.number;
     return out;
@@ -153,7 +156,7 @@ Strain Person::strain(const frame::Frame& frame) const noexcept {
 
 /// Accumulates the push on the hand. Between trials, the push may end before the movement does.
 void Person::feel_strain() noexcept {
-    const Strain& felt = strains_.before(traits_.visual_delay);
+    const Strain& felt = senses_.strains.before(traits_.visual_delay);
     if (!reach_.going || cue_.between || felt.reach != reach_.number) return;
     reach_.pushes.add(felt);
 }
@@ -185,8 +188,9 @@ void Person::stray() noexcept {
     const double rate = most * share.rate / reach_.duration;
     const double z = most * share.share + stray.held_back.dot(aside);
     const double z_rate = rate + stray.held_back_rate.dot(aside);
-    const double off = most * share.share + (felt_.centre() - aim_.at(now_).centre).dot(aside);
-    const double off_rate = rate + (felt_.velocity() - aim_.rate(now_).centre).dot(aside);
+    const double off =
+        most * share.share + (senses_.felt.centre() - aim_.at(now_).centre).dot(aside);
+    const double off_rate = rate + (senses_.felt.velocity() - aim_.rate(now_).centre).dot(aside);
     const double h = std::clamp(off, std::min(0.0, z), std::max(0.0, z));
     const double h_rate = h == off ? off_rate : h == z ? z_rate : 0;
     stray.so_far = most * share.share * aside;
@@ -196,12 +200,12 @@ void Person::stray() noexcept {
     if (now_ > reach_.begin + reach_.duration) {
         // the arm rests where its stroke has led, and gives way to what holds the hand elsewhere
         stray.held_back_rate.setZero();
-        if (std::abs(felt_.velocity().dot(aside)) < kDrifts)
+        if (std::abs(senses_.felt.velocity().dot(aside)) < kDrifts)
             stray.held_back -= std::min(1.0, tick_ / kGiving) * (z - h) * aside;
         return;
     }
     const double holds = stiffness() * (z - h) + impedance_.damping * (z_rate - h_rate);
-    stray.held_back_rate -= felt_.fingers() * holds / kArmMass * tick_ * aside;
+    stray.held_back_rate -= senses_.felt.fingers() * holds / kArmMass * tick_ * aside;
     stray.held_back += stray.held_back_rate * tick_;
 }
 
@@ -218,13 +222,11 @@ void Person::redirect(const Vec3& displacement) noexcept {
 /// Answers jumps of the target and of the cursor within a reach, once they have been seen for a
 /// moment: what jumps as a trial ends needs no answer.
 void Person::follow_jumps(const Sight& sight) noexcept {
-    const Vec3 off_felt = sight.hand - felt_hand();
-    const Vec3 jump = off_felt - off_felt_;
-    off_felt_ = off_felt;
+    const Vec3 jump = senses_.take_jump(sight);
     if (!reach_.going || reach_.duration == 0 || action_.doing != Doing::moving || cue_.between)
         return;
     if (reach_.jumps >= kMostJumps) return;
-    const bool cursor_jumps = sight.hand_shown && !cursor_.is_held() && jump.norm() > kJump;
+    const bool cursor_jumps = sight.hand_shown && !senses_.cursor.is_held() && jump.norm() > kJump;
     if (cursor_jumps) reach_.cursor_off += jump;
     const Vec3 aside = target(sight, steps()[action_.step]) - reach_.goal;
     const bool off = aside.norm() > kJump || reach_.cursor_off != Vec3::Zero();
@@ -257,7 +259,7 @@ void Person::watch_reach(const Sight& sight) noexcept {
         const double share =
             traits_.online_correction *
             beyond_noise(rotation_between(reach_.way / length, arm).norm(), shown.norm());
-        if (action_.doing == Doing::moving && share > 0 && !cursor_.is_held())
+        if (action_.doing == Doing::moving && share > 0 && !senses_.cursor.is_held())
             aim_.add({share * made_for(missed), 0, 0}, now_, left);
     }
     if (shown.norm() < kJudged * length) return;
@@ -267,7 +269,7 @@ void Person::watch_reach(const Sight& sight) noexcept {
     reach_.pushed = reach_.pushes.moved > 0;  // later pushes belong to the next state
     if (reach_.pushed) {
         // a pushed hand is seen where it is felt to be, turned by the expected rotation
-        const Vec3 felt = felt_where_shown() - reach_.felt_from;
+        const Vec3 felt = senses_.felt_where_shown() - reach_.felt_from;
         wanted = rotated(memory().rotation.expected(reach_.way.normalized()), felt);
     }
     const Vec3 error = rotation_between(wanted.normalized(), arm.normalized());
@@ -285,8 +287,8 @@ void Person::judge_extent(const Sight& sight) noexcept {
     if (shown < least) return;
     const Vec3 d = reach_.way.normalized();
     double wanted = reach_.way.norm();
-    if (reach_.pushed || cursor_.is_held()) {
-        const Vec3 felt = felt_where_shown() - reach_.felt_from;
+    if (reach_.pushed || senses_.cursor.is_held()) {
+        const Vec3 felt = senses_.felt_where_shown() - reach_.felt_from;
         wanted = std::exp(memory().gain.expected(d)) * felt.norm();
         if (wanted < least) return;
     }
@@ -313,11 +315,11 @@ void Person::end_reach() noexcept {
 bool Person::correct(const Sight& sight) noexcept {
     const TaskPlan::Step& step = steps()[action_.step];
     if (step.step.reach.index < 0 || action_.corrections >= kMostCorrections) return false;
-    const double still = std::min(felt_.moved_at(), aim_.end() + kPatience);
+    const double still = std::min(senses_.felt.moved_at(), aim_.end() + kPatience);
     if (now_ < std::max(aim_.end() + kSettled, still) + traits_.visual_delay) return true;
     if (!sight.hand_shown) return false;  // a hidden hand is assumed to be at its goal
     judge_extent(sight);
-    if (cursor_.is_held()) return false;  // a held cursor does not follow the hand
+    if (senses_.cursor.is_held()) return false;  // a held cursor does not follow the hand
     const Vec3 missed = look(target(sight, step) - sight.hand, traits_.visual_noise, draws_.others);
     if (missed.norm() < kGoodEnough) return false;
     // if the display rotates movements by more than 70 degrees, each stroke leads further away

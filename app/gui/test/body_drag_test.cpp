@@ -23,7 +23,7 @@ view::Ray to(const Vec3& p_W) {
 
 TEST(BodyDrag, FollowsThePointerInTheTablesPlaneUpAndAround) {
     const Vec3 held(0.01, 0.02, 0.04);
-    BodyDrag drag({0, held}, to(held));
+    BodyDrag drag({0, held}, to(held), {rotation_xyz({0, 0, 0.1}), held});
     EXPECT_TRUE(drag.way().none());
     drag.follow(to({0.05, -0.03, 0.04}), {9, 9}, Qt::NoModifier);
     EXPECT_NEAR((drag.way().way - Vec3(0.04, -0.05, 0)).norm(), 0, 1e-12);
@@ -35,14 +35,14 @@ TEST(BodyDrag, FollowsThePointerInTheTablesPlaneUpAndAround) {
     EXPECT_NEAR(drag.way().turn, 0.8, 1e-12);
     drag.follow(to({0.21, 0.2, 0.14}), {9, 9}, Qt::NoModifier);
     EXPECT_NEAR((drag.way().way - Vec3(0.05, -0.05, 0.1)).norm(), 0, 1e-12);
-    const Pose X_WB = drag.way().of({rotation_xyz({0, 0, 0.1}), held});
+    const Pose X_WB = drag.X_WB();
     EXPECT_NEAR((X_WB.p - held - drag.way().way).norm(), 0, 1e-12);
     EXPECT_NEAR((angles_xyz(X_WB.R) - Vec3(0, 0, 0.9)).norm(), 0, 1e-12);
 }
 
 TEST(BodyDrag, WaitsForAPointerAboveTheHorizonToComeBack) {
     const Vec3 held(0, 0, 0.02);
-    BodyDrag drag({0, held}, to(held));
+    BodyDrag drag({0, held}, to(held), {});
     drag.follow({camera_at(0.3).position, Vec3::UnitZ()}, {0, -500}, Qt::NoModifier);
     EXPECT_TRUE(drag.way().none());
     drag.follow(to({0, 0.1, 0.02}), {0, 400}, Qt::NoModifier);

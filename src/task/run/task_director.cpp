@@ -49,7 +49,7 @@ TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
     size_t transitions = 0;
     for (const TaskPlan::PlannedState& planned : plan.states)
         transitions = std::max(transitions, planned.transitions.size());
-    judged_.assign(transitions, {});
+    current_.judged.assign(transitions, {});
 }
 
 void TaskDirector::operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
@@ -60,10 +60,10 @@ void TaskDirector::operator()(const frame::Frame& last, std::span<const frame::H
     // the quantities are updated between trials too, since texts use them
     rules_.keep(numbers_.values());
     numbers_.quantities().update(last, handles);
-    rules_.take_measures(last, state_, numbers_.quantities());
+    rules_.take_measures(last, current_.state, numbers_.quantities());
     direct(last, handles, now, commands);
     displayer_.order(now, commands.task);
-    sounder_.order(state_ < 0 ? nullptr : &planned(), commands.task);
+    sounder_.order(current_.state < 0 ? nullptr : &planned(), commands.task);
     say(now, commands.task);
 }
 
@@ -81,7 +81,7 @@ void TaskDirector::direct(const frame::Frame& last, std::span<const frame::Handl
         return;
     }
     take_answers(handles, input, now);
-    if (state_ < 0) {
+    if (current_.state < 0) {
         begin(last, input.key, now, commands);
     } else if (const TaskPlan::Transition* transition = transition_taken(last, input, now)) {
         sounder_.take(*transition);
@@ -93,8 +93,9 @@ void TaskDirector::direct(const frame::Frame& last, std::span<const frame::Handl
         }
         enter(transition->exit.to.index, now, commands);
     }
-    if (state_ >= 0)
-        placer_.order(planned(), last, now + tick_ - entered_, numbers_, motions_, commands);
+    if (current_.state >= 0)
+        placer_.order(planned(), last, now + tick_ - current_.entered, numbers_, motions_,
+                      commands);
     order(now, commands);
 }
 
@@ -102,8 +103,8 @@ void TaskDirector::begin(const frame::Frame& last, char key, double now,
                          frame::Commands& commands) noexcept {
     if (!deciding_.is_over(now, [&](const Decision& made) { return follow(made, now); })) return;
     if (messages_.shows_feedback(now)) return;
-    if (!opening_.over(trial(), last_trial_ > 0, key, now)) return;
-    if (!begun_) resolve();
+    if (!opening_.over(trial(), last_.trial > 0, key, now)) return;
+    if (!current_.begun) resolve();
     if (!placer_.is_clear(last, numbers_.cell())) {
         messages_.interrupt(plan_.move_away);
         return;
@@ -126,7 +127,7 @@ void TaskDirector::decide_by(TrialControl& between) noexcept {
 
 void TaskDirector::ask(int attempt, int outcome, double now) noexcept {
     Ended ended;
-    ended.trial = last_trial_;
+    ended.trial = last_.trial;
     ended.attempt = attempt;
     ended.outcome = outcome;
     for (size_t i = 0; i < plan_.task.variables.size(); ++i)
@@ -151,20 +152,21 @@ bool TaskDirector::follow(const Decision& decision, double now) noexcept {
 }
 
 void TaskDirector::enter(int state, double now, frame::Commands& commands) noexcept {
-    if (state_ >= 0) placer_.leave(planned(), state_, queue_.trial() + 1);
-    if (state_ < 0) trial_began_ = now;
+    if (current_.state >= 0) placer_.leave(planned(), current_.state, queue_.trial() + 1);
+    if (current_.state < 0) current_.trial_began = now;
     numbers_.follow(queue_.trial() + 1, queue_.attempt(), variables_, state);
     const TaskPlan::Cell& cell = numbers_.cell();
     for (const int i : trial().perturb) {
-        if (cell.acts(i, state) && !cell.acts(i, state_)) began_[static_cast<size_t>(i)] = now;
+        if (cell.acts(i, state) && !cell.acts(i, current_.state))
+            began_[static_cast<size_t>(i)] = now;
     }
-    displayer_.enter(state, cell.looks[static_cast<size_t>(state)], state_ < 0);
+    displayer_.enter(state, cell.looks[static_cast<size_t>(state)], current_.state < 0);
     sounder_.enter(plan_.states[static_cast<size_t>(state)]);
-    state_ = state;
-    entered_ = now;
+    current_.state = state;
+    current_.entered = now;
     numbers_.quantities().set(Quantities::kTimeInState, 0);  // drives use the time in this tick
     answering_.begin(planned().questions);
-    std::fill(judged_.begin(), judged_.end(), Judged{});
+    std::fill(current_.judged.begin(), current_.judged.end(), Judged{});
     placer_.enter();
     if (planned().message >= 0) messages_.show(planned().message, now);
     commands.task.marker = planned().marker;
@@ -175,16 +177,17 @@ const TaskPlan::Transition* TaskDirector::transition_taken(const frame::Frame& l
                                                            double now) noexcept {
     const auto& transitions = planned().transitions;
     Quantities& quantities = numbers_.quantities();
-    quantities.set(Quantities::kTimeInState, exact(now - entered_));
-    quantities.set(Quantities::kTimeInTrial, exact(now - trial_began_));
+    quantities.set(Quantities::kTimeInState, exact(now - current_.entered));
+    quantities.set(Quantities::kTimeInTrial, exact(now - current_.trial_began));
     for (size_t i = 0; i < transitions.size(); ++i) {
         const TaskPlan::Transition& transition = transitions[i];
         // half a tick of tolerance allows for rounding errors in sums of ticks
         if (transition.exit.when == When::time) {
-            if (now - entered_ >= numbers_.of(transition.exit.hold) - tick_ / 2) return &transition;
+            if (now - current_.entered >= numbers_.of(transition.exit.hold) - tick_ / 2)
+                return &transition;
             continue;
         }
-        Judged& judged = judged_[i];
+        Judged& judged = current_.judged[i];
         if (!holds(transition, last, input)) {
             judged.since = kNever;
             judged.met = false;
@@ -220,29 +223,29 @@ bool TaskDirector::holds(const TaskPlan::Transition& transition, const frame::Fr
 }
 
 void TaskDirector::finish(int outcome, bool redo, double now, frame::Commands& commands) noexcept {
-    last_trial_ = queue_.trial() + 1;
-    if (state_ >= 0) placer_.leave(planned(), state_, last_trial_);
-    last_attempt_ = queue_.attempt();
-    commands.trial = last_trial_;
+    last_.trial = queue_.trial() + 1;
+    if (current_.state >= 0) placer_.leave(planned(), current_.state, last_.trial);
+    last_.attempt = queue_.attempt();
+    commands.trial = last_.trial;
     // a trial that is skipped before it starts has a single frame, in its first state
-    commands.phase = std::max(state_, 0) + 1;
-    commands.task.attempt = last_attempt_;
+    commands.phase = std::max(current_.state, 0) + 1;
+    commands.task.attempt = last_.attempt;
     commands.task.outcome = outcome;
     commands.task.message = messages_.message();
     // rules need the trial's numbers even if the trial is skipped before it starts
-    if (!begun_) resolve();
+    if (!current_.begun) resolve();
     const bool again =
-        redo && plan_.task.redo != Redo::never && last_attempt_ < plan_.task.most_attempts;
+        redo && plan_.task.redo != Redo::never && last_.attempt < plan_.task.most_attempts;
     rules_.follow(outcome, !again, numbers_, variables_);
     commands.task.variables = variables_;
     take_answer(outcome);
     queue_.finish(redo);
     if (plan_.outcomes[static_cast<size_t>(outcome)].ends_session) queue_.end();
     skip_done();
-    state_ = -1;
-    begun_ = false;
+    current_.state = -1;
+    current_.begun = false;
     share_.store(static_cast<double>(queue_.done()) / queue_.all(), std::memory_order_relaxed);
-    if (!queue_.empty()) ask(last_attempt_, outcome, now);
+    if (!queue_.empty()) ask(last_.attempt, outcome, now);
     commands.stop = queue_.empty() && !messages_.shows_feedback(now);
 }
 
@@ -250,9 +253,9 @@ void TaskDirector::finish(int outcome, bool redo, double now, frame::Commands& c
 /// shown, but a session that was already complete when resumed ends immediately.
 void TaskDirector::order_end(double now, frame::Commands& commands) const noexcept {
     commands.stop = !messages_.shows_feedback(now);
-    commands.trial = last_trial_;
+    commands.trial = last_.trial;
     commands.phase = 0;
-    commands.task.attempt = last_attempt_;
+    commands.task.attempt = last_.attempt;
     commands.task.message = messages_.message();
     commands.task.variables = variables_;
 }
@@ -273,7 +276,7 @@ void TaskDirector::say(double now, frame::TaskFrame& out) const noexcept {
     };
     if (const int line = messages_.line(now); line >= 0) add_line(line);
     if (rests) add_line(plan_.countdown);
-    if (state_ >= 0) {
+    if (current_.state >= 0) {
         for (const int line : planned().lines) add_line(line);
         for (const int line : answering_.lines()) add_line(line);
     }
@@ -294,9 +297,9 @@ void TaskDirector::say(int message, double now, frame::TaskFrame& out) const noe
 
 double TaskDirector::value_of(Figure figure, double now) const noexcept {
     // between trials, texts refer to the last trial, whereas pages refer to the next trial
-    const bool ended = state_ < 0 && !opening_.on() && last_trial_ > 0;
+    const bool ended = current_.state < 0 && !opening_.on() && last_.trial > 0;
     if (queue_.empty() && !ended) return kUnmeasured;
-    const int number = ended ? last_trial_ : queue_.trial() + 1;
+    const int number = ended ? last_.trial : queue_.trial() + 1;
     const Trial& trial = plan_.trials[static_cast<size_t>(number - 1)];
     switch (figure) {
         case Figure::trial_num:
@@ -312,7 +315,7 @@ double TaskDirector::value_of(Figure figure, double now) const noexcept {
         case Figure::blocks:
             return plan_.trials.back().number;
         case Figure::attempt:
-            return ended ? last_attempt_ : queue_.attempt();
+            return ended ? last_.attempt : queue_.attempt();
         case Figure::countdown:
             return countdown(now);
         default:
@@ -325,11 +328,11 @@ double TaskDirector::value_of(Figure figure, double now) const noexcept {
 double TaskDirector::countdown(double now) const noexcept {
     const double rest = opening_.rest_left(now);
     if (rest >= 0) return std::ceil(rest - tick_ / 2);
-    if (state_ < 0) return kUnmeasured;
+    if (current_.state < 0) return kUnmeasured;
     for (const TaskPlan::Transition& transition : planned().transitions) {
         if (transition.exit.when == When::time)
-            return std::max(
-                0.0, std::ceil(numbers_.of(transition.exit.hold) - (now - entered_) - tick_ / 2));
+            return std::max(0.0, std::ceil(numbers_.of(transition.exit.hold) -
+                                           (now - current_.entered) - tick_ / 2));
     }
     return kUnmeasured;
 }
@@ -346,11 +349,11 @@ bool TaskDirector::is_done() noexcept {
 
 void TaskDirector::take_answers(std::span<const frame::Handle> handles, const Input& input,
                                 double now) noexcept {
-    if (state_ < 0) return;
+    if (current_.state < 0) return;
     const TaskPlan::Questions& questions = planned().questions;
     if (questions.items.empty()) return;
     const Question& first = questions.items.front().question;
-    if (questions.is_form && now - entered_ < kUnread) {
+    if (questions.is_form && now - current_.entered < kUnread) {
         // ignored, because these keys were meant for the previous page
     } else if (first.by != AnswerBy::cursor) {
         answering_.press(input.key);
@@ -372,7 +375,7 @@ void TaskDirector::take_answers(std::span<const frame::Handle> handles, const In
 }
 
 void TaskDirector::resolve() noexcept {
-    begun_ = true;
+    current_.begun = true;
     for (size_t i = plan_.task.variables.size() + plan_.levels.size(); i < variables_.size(); ++i)
         variables_[i].value = kUnmeasured;
     for (const TaskPlan::Level& level : plan_.levels)
@@ -393,7 +396,7 @@ double TaskDirector::level() const noexcept {
 
 double TaskDirector::share_of_trial() const noexcept {
     if (trial().procedure < 0 || plan_.level_of(trial()) != nullptr) return trial().share;
-    if (plan_.shows_standard(trial(), state_)) return 0;
+    if (plan_.shows_standard(trial(), current_.state)) return 0;
     return plan_.task.procedures[static_cast<size_t>(trial().procedure)].share(level());
 }
 
@@ -409,12 +412,12 @@ void TaskDirector::take_answer(int outcome) noexcept {
 
 void TaskDirector::order(double now, frame::Commands& commands) const noexcept {
     commands.trial = queue_.trial() + 1;
-    commands.phase = state_ + 1;
+    commands.phase = current_.state + 1;
     frame::TaskFrame& out = commands.task;
     out.attempt = queue_.attempt();
     out.message = messages_.message();
     out.variables = variables_;
-    if (state_ < 0) return;
+    if (current_.state < 0) return;
     const TaskPlan::Cell& cell = numbers_.cell();
     for (size_t i = 0; i < cell.p_W.size(); ++i) {
         if (planned().shown >> i & 1u)
@@ -422,12 +425,12 @@ void TaskDirector::order(double now, frame::Commands& commands) const noexcept {
     }
     for (const int p : trial().perturb) {
         const auto i = static_cast<size_t>(p);
-        if (!cell.acts(p, state_)) continue;
+        if (!cell.acts(p, current_.state)) continue;
         const double part = cell.perturbations[i].share_at(now - began_[i]);
         if (part == 0) continue;  // the perturbation's profile has not started or is already over
         // share in the trial, without the profile, whose effect is visible in the commands
         const double share = share_of_trial();
-        if (share == 0 && plan_.shows_standard(trial(), state_)) continue;
+        if (share == 0 && plan_.shows_standard(trial(), current_.state)) continue;
         out.share = share;
         cell.perturbations[i].order(part * out.share, cell.p_W, motions_, out);
     }

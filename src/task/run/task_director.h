@@ -46,9 +46,9 @@ class TaskDirector {
     void decide_by(TrialControl& between) noexcept;
     /// Restarts a running trial. Must be called between two ticks.
     void interrupt() noexcept {
-        if (!queue_.empty() && state_ >= 0) queue_.again();
-        state_ = -1;
-        begun_ = false;
+        if (!queue_.empty() && current_.state >= 0) queue_.again();
+        current_.state = -1;
+        current_.begun = false;
         rules_.clear();
         motions_.forget();
     }
@@ -67,7 +67,7 @@ class TaskDirector {
     const Trial& trial() const { return plan_.trials[static_cast<size_t>(queue_.trial())]; }
     /// The current state. Must not be called between trials.
     const TaskPlan::PlannedState& planned() const {
-        return plan_.states[static_cast<size_t>(state_)];
+        return plan_.states[static_cast<size_t>(current_.state)];
     }
     /// Time until which feedback is shown that is given now; half a tick of tolerance allows for
     /// rounding errors in sums of ticks.
@@ -118,20 +118,27 @@ class TaskDirector {
     TrialQueue queue_;
     TrialNumbers numbers_;
     std::vector<frame::VariableFrame> variables_;
-    bool begun_ = false;      // whether the trial's numbers have been resolved
-    int state_ = -1;          // index of the current state; -1 between trials
-    double trial_began_ = 0;  // time at which the trial's first state was entered [s]
-    double entered_ = 0;      // time at which the current state was entered [s]
-    // number of the last trial that ended, counted from 1; 0 if none has ended yet
-    int last_trial_ = 0;
-    int last_attempt_ = 0;
     /// How far the condition of an exit has been met.
     struct Judged {
         double since = -1;  // time since which the condition has held [s]; -1 if it does not hold
         bool met = false;   // whether the condition has held long enough since then
         int count = 0;      // number of times that the condition has been met in this state
     };
-    std::vector<Judged> judged_;
+    /// Where in a trial the task is.
+    struct Current {
+        bool begun = false;      // whether the trial's numbers have been resolved
+        int state = -1;          // index of the current state; -1 between trials
+        double trial_began = 0;  // time at which the trial's first state was entered [s]
+        double entered = 0;      // time at which the current state was entered [s]
+        std::vector<Judged> judged;
+    };
+    Current current_;
+    /// The last trial that ended, counted from 1; 0 if none has ended yet.
+    struct LastEnded {
+        int trial = 0;
+        int attempt = 0;
+    };
+    LastEnded last_;
     Messages messages_;
     Placer placer_;
     Motions motions_;
