@@ -1,10 +1,12 @@
-"""No function is long or tangled: at most 60 lines, and a cyclomatic complexity of at most 15.
+"""No function is long or tangled: at most 60 lines, and a cyclomatic complexity of at most 15. No class is hard to
+survey: at most 250 lines, and 20 data members.
 
 Those that read better whole are listed in functions_exceptions.txt, each with its reason. The complexity is
 1 + the number of if, for, while, case, catch, &&, || and ?: in the function's text.
 
 Usage: functions_test.py, from the project's folder.
 """
+import collections
 import json
 import pathlib
 import re
@@ -21,25 +23,51 @@ MOST_COMPLEX = 15
 MOST_LINES_EVER = 80
 MOST_COMPLEX_EVER = 20
 
+MOST_CLASS_LINES = 250
+MOST_MEMBERS = 20
+#: Classes that have more members, and how many.
+MORE_MEMBERS = {"gui::SessionControl": 29, "session::Observers": 23, "person::Person": 21}
+
 EXCEPTIONS = pathlib.Path(__file__).with_name("functions_exceptions.txt")
+
+
+def tags_of(kinds):
+    """The tags of these kinds in the product's C++, as ctags gives them."""
+    files = [str(file) for folder in ("src", "app", "bench", "python") for file in pathlib.Path(folder).rglob("*")
+             if file.suffix in (".h", ".cpp") and not {"test", "soak", "fuzz"} & set(file.parts)]
+    tags = subprocess.run(["ctags", "--output-format=json", "--fields=+ne", f"--kinds-C++={kinds}", "--language-force=C++", "-f", "-", "-L", "-"],
+                          input="\n".join(files), capture_output=True, text=True, check=True).stdout
+    return map(json.loads, tags.splitlines())
+
+
+def name_of(tag, *more):
+    """The name of a tag with its scope, without anonymous namespaces."""
+    scope = [part for part in tag.get("scope", "").split("::") if part and not part.startswith("__anon")]
+    return "::".join([part for part in scope if part != "dihaptic"] + list(more))
+
+
+def classes():
+    """Lines of each class or struct of the product, and the number of data members of those that have any (whose names
+    end in _)."""
+    lines, members = {}, collections.Counter()
+    for tag in tags_of("csm"):
+        if tag["kind"] in ("class", "struct"):
+            name = name_of(tag, tag["name"])
+            lines[name] = max(lines.get(name, 0), tag.get("end", tag["line"]) - tag["line"] + 1)
+        elif tag["name"].endswith("_"):
+            members[name_of(tag)] += 1
+    return lines, members
 
 
 def functions():
     """(file, name, lines, complexity) of each function of the product."""
-    files = [str(file) for folder in ("src", "app", "bench", "python") for file in pathlib.Path(folder).rglob("*")
-             if file.suffix in (".h", ".cpp") and not {"test", "soak", "fuzz"} & set(file.parts)]
-    tags = subprocess.run(["ctags", "--output-format=json", "--fields=+ne", "--kinds-C++=f", "--language-force=C++", "-f", "-", "-L", "-"],
-                          input="\n".join(files), capture_output=True, text=True, check=True).stdout
-    for line in tags.splitlines():
-        tag = json.loads(line)
+    for tag in tags_of("f"):
         if "end" not in tag:
             continue
         body = "\n".join(pathlib.Path(tag["path"]).read_text().split("\n")[tag["line"] - 1:tag["end"]])
         body = re.sub(r"//.*|\"(\\.|[^\"\\])*\"|'(\\.|[^'\\])'", "", body)
         branches = re.findall(r"\b(?:if|for|while|case|catch)\b|&&|\|\||\?", body)
-        scope = [part for part in tag.get("scope", "").split("::") if part and not part.startswith("__anon")]
-        name = "::".join([part for part in scope if part != "dihaptic"] + [tag["name"]])
-        yield tag["path"], name, tag["end"] - tag["line"] + 1, 1 + len(branches)
+        yield tag["path"], name_of(tag, tag["name"]), tag["end"] - tag["line"] + 1, 1 + len(branches)
 
 
 class Functions(unittest.TestCase):
@@ -72,6 +100,20 @@ class Functions(unittest.TestCase):
                 self.assertTrue(lines > MOST_LINES or complexity > MOST_COMPLEX, "needs no exception any more")
                 self.assertLessEqual(lines, MOST_LINES_EVER)
                 self.assertLessEqual(complexity, MOST_COMPLEX_EVER)
+
+
+class Classes(unittest.TestCase):
+    def test_can_be_surveyed(self):
+        lines, members = classes()
+        self.assertGreater(len(members), 200)
+        for name, number in lines.items():
+            with self.subTest(name):
+                self.assertLessEqual(number, MOST_CLASS_LINES, "lines: take out what can be understood alone")
+        for name, number in members.items():
+            with self.subTest(name):
+                self.assertLessEqual(number, MORE_MEMBERS.get(name, MOST_MEMBERS), "data members: take out what belongs together")
+        for name, number in MORE_MEMBERS.items():
+            self.assertEqual(members[name], number, f"{name}: lower its number, or remove it from the list")
 
 
 if __name__ == "__main__":

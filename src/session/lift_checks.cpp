@@ -109,7 +109,7 @@ void check_objects(const Plan& plan, Diagnostics& diagnostics) {
         if (measured.count(name) == 0) {
             diagnostics.warning(
                 place, name,
-                fmt::format("is gripped or lifted in the task, but lifts are measured of {} alone, "
+                fmt::format("is gripped or lifted in the task, but only lifts of {} are measured, "
                             "so that those of '{}' will be marked 'no touch'",
                             fmt::join(measured, " and "), name),
                 fmt::format("Add object: {} to the conditions in which it is lifted, or to the "

@@ -136,7 +136,7 @@ task:
         hinge = "joints: [{ name: hinge, kind: hinge, between: [block, lid], position_mm: [0, 20, 40], axis: [1, 0, 0] }]\n"
         self.assertNotIn("counts as touch", self.lift("block"))
         self.assertNotIn("no touch", self.lift("block"))
-        self.assertIn("lid: is gripped or lifted in the task, but lifts are measured of block alone", self.lift("lid"))
+        self.assertIn("lid: is gripped or lifted in the task, but only lifts of block are measured", self.lift("lid"))
         self.assertNotIn("no touch", self.lift("lid", task="  conditions: [{ name: lid, object: lid }]\n"))
         self.assertIn("block: is joined to lid, but only contact with 'block' itself counts", self.lift("block", hinge))
         self.assertNotIn("counts", self.lift("block", hinge, named="object: block\n"))

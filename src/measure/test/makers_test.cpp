@@ -22,7 +22,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, Makers, ::testing::Values("openhaptics", "for
                          [](const auto& instance) { return instance.param; });
 
 TEST_P(Makers, HoldAndLiftAreTheSame) {
-    for (const double k : {300.0, 1000.0, 2000.0}) {
+    for (const double k : {300.0, 500.0, 1000.0, 2000.0}) {
         set(k, Fingering::real);
         const HoldFigures a = measure_hold(simulated);
         const HoldFigures b = measure_hold(made);
@@ -32,9 +32,10 @@ TEST_P(Makers, HoldAndLiftAreTheSame) {
         expect_alike(a.grip_ratio, b.grip_ratio, 0);
         expect_alike(a.slip_mm, b.slip_mm, 1e-5);
         expect_alike(a.lift_slip_mm, b.lift_slip_mm, 1e-5);
-        // At 2000 N/m the block trembles by a tenth of a millimetre, and never twice in the same
-        // way: these figures of one maker's hold vary by 15 % if the solver ends a tenth earlier.
-        const double share = k > 1000 ? 0.3 : 0.01;
+        // The block trembles by a tenth of a millimetre and, with a stiff coupling, never twice in
+        // the same way: at 2000 N/m these figures of one maker's hold vary by 15 % if the solver
+        // ends a tenth earlier, and at 1000 N/m by 5 % if it changes the twelfth digit.
+        const double share = k > 1000 ? 0.3 : k > 500 ? 0.1 : 0.01;
         expect_alike(a.z_rms_um, b.z_rms_um, 1e-2, share);
         expect_alike(a.z_pp_um, b.z_pp_um, 1e-2, share);
         expect_alike(a.tilt_rms_deg, b.tilt_rms_deg, 1e-4, share);
