@@ -344,7 +344,7 @@ void OperatorWindow::follow_in_headset() {
 
 void OperatorWindow::show_state() {
     mark_picked();
-    const SessionControl::Words words = control_.words();
+    const TaskTexts::Words words = control_.words();
     const SessionSign sign = sign_of(control_);
     if (sign.sign == Sign::running) {
         scene_->set_banner(words.message);

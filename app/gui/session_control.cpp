@@ -1,25 +1,13 @@
 #include "session_control.h"
 
-#include <QFileInfo>
 #include <algorithm>
 #include <utility>
 
-#include "frame/shown_texts.h"
 #include "headset_view.h"
 #include "plain_text.h"
 
 namespace dihaptic::gui {
 namespace {
-
-/// The texts that the task currently shows, one per line.
-QString texts_of(const session::Plan& plan, const frame::Frame& frame) {
-    QStringList out;
-    if (plan.task) {
-        for (const std::string& text : frame::shown_texts(frame.task, plan.task->messages))
-            out += QString::fromStdString(text);
-    }
-    return out.join("\n");
-}
 
 /// The clock of a session. A hand moved by a person, or by a script in the person's place, requires
 /// real time.
@@ -42,13 +30,7 @@ SessionControl::SessionControl(QString out, double sync, std::atomic<bool>& stop
             Q_EMIT progressed({"", "", most > 0 ? static_cast<double>(seconds) / most : 0,
                                tr("%1: %2 s of %3 s at most").arg(what).arg(seconds).arg(most)});
     });
-    reload_.setSingleShot(true);
-    connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] { reload_.start(300); });
-    // a missing file may have returned
-    connect(&watcher_, &QFileSystemWatcher::directoryChanged, this, [this] {
-        if (!watcher_.files().contains(file_) && QFileInfo::exists(file_)) reload_.start(300);
-    });
-    connect(&reload_, &QTimer::timeout, this, &SessionControl::file_changed);
+    connect(&file_, &WatchedFile::changed, this, &SessionControl::file_changed);
     connect(&runner_, &SessionRunner::ended, this, &SessionControl::end);
     connect(&runner_, &SessionRunner::paused_at_once, this, &SessionControl::pause_for_escape);
     connect(&runner_, &SessionRunner::warned, this,
@@ -103,70 +85,20 @@ bool SessionControl::has_trials() const {
     return runner_.running() ? runner_.plan().task != nullptr : plan_ && plan_->task;
 }
 
-SessionControl::Words SessionControl::words() const {
-    if (!runner_.running()) return {};
-    if (page_ < 0) return {said_, "", ""};
-    const task::TaskPlan::Page& page = runner_.plan().task->pages[static_cast<size_t>(page_)];
-    return {"", said_, QString::fromStdString(page.spec.picture)};
-}
-
-/// The part of the answer that has been typed: the number at the end of the line that shows the
-/// scale in words. `scale`: index of that line's message.
-QString SessionControl::typed(const frame::TaskFrame& task, const task::TaskPlan& plan, int scale) {
-    const std::vector<std::string> texts = frame::shown_texts(task, plan.messages);
-    for (size_t i = 0; i < task.lines.size(); ++i) {
-        if (task.lines[i].message != scale) continue;
-        const std::string& line = texts[i + (task.message >= 0 ? 1 : 0)];
-        const std::string number = line.substr(line.rfind(' ') + 1);
-        return number == "-" ? "" : QString::fromStdString(number);
-    }
-    return "";
+TaskTexts::Words SessionControl::words() const {
+    return runner_.running() ? texts_.words(runner_.plan()) : TaskTexts::Words{};
 }
 
 std::optional<Asked> SessionControl::asked() const {
     if (!may(Act::skip)) return {};
-    const frame::Frame& frame = runner_.frame();
-    if (frame.trial < 1 || frame.phase < 1 || frame.task.outcome >= 0) return {};
-    const task::TaskPlan& plan = *runner_.plan().task;
-    const auto phase = static_cast<size_t>(frame.phase) - 1;
-    const task::State& state = plan.task.states[phase];
-    Asked out;
-    out.items = state.questions();
-    out.is_form = state.form.has_value();
-    if (out.items.empty()) return {};
-    if (!out.is_form && out.items.front().by != task::AnswerBy::mouse) return {};
-    if (out.is_form)
-        out.title =
-            QString::fromStdString(state.message.empty() ? state.form->title : state.message);
-    // the lines below the message say which question is being asked
-    const auto& items = plan.states[phase].questions.items;
-    const auto is_shown = [&](const task::TaskPlan::Questions::Item& item) {
-        return std::ranges::any_of(frame.task.lines, [&](const frame::LineFrame& line) {
-            return line.message == item.lines.front();
-        });
-    };
-    out.now = static_cast<size_t>(std::ranges::find_if(items, is_shown) - items.begin());
-    for (const auto& item : items)
-        out.answers.push_back(frame.task.variables[item.question.variable].value /
-                              item.question.si);
-    if (out.now < items.size()) out.typed = typed(frame.task, plan, items[out.now].lines.back());
-    return out;
+    return asked_in(runner_.frame(), *runner_.plan().task);
 }
 
 void SessionControl::open(const QString& file) {
-    file_ = file;
+    file_.open(file);
     starts_.reset();
     last_end_.reset();
     recorded_.clear();
-    if (const QStringList watched = watcher_.files() + watcher_.directories(); !watched.isEmpty())
-        watcher_.removePaths(watched);
-    watcher_.addPath(file);
-    watcher_.addPath(QFileInfo(file).absolutePath());
-}
-
-void SessionControl::watch() {
-    // when an editor replaces the file, it is no longer being watched
-    if (!watcher_.files().contains(file_)) watcher_.addPath(file_);
 }
 
 void SessionControl::read(const session::Request& request, const std::optional<std::string>& text) {
@@ -183,7 +115,7 @@ void SessionControl::take(const Opened& opened) {
     frame_ = opened.frame;
     complaint_.clear();
     text_is_wrong_ = false;
-    if (std::exchange(refused_for_text_, false)) last_end_.reset();  // the errors are mended
+    if (last_end_ && last_end_->by_text) last_end_.reset();  // the errors are mended
     // opening the devices may have added warnings
     QStringList warnings;
     for (const Problem& warning : plan_->warnings)
@@ -200,7 +132,7 @@ void SessionControl::take(const Opened& opened) {
         if (opened.in_study) start.in_study = opened.in_study;  // of a resumed session
         return run(start, std::move(devices));
     }
-    if (!edited_) log(tr("opened %1: %2").arg(file_, QString::fromStdString(plan_->title)));
+    if (!edited_) log(tr("opened %1: %2").arg(file(), QString::fromStdString(plan_->title)));
     Q_EMIT changed();
     if (start_when_opened_) Q_EMIT start_due();
 }
@@ -242,8 +174,9 @@ void SessionControl::refuse_text_to_start() {
 
 void SessionControl::refuse_to_start(const QString& why, bool by_text) {
     log(why, true);
-    last_end_.emplace().why = why;
-    refused_for_text_ = by_text;
+    SessionEnd& end = last_end_.emplace();
+    end.why = why;
+    end.by_text = by_text;
     Q_EMIT changed();
 }
 
@@ -266,17 +199,14 @@ void SessionControl::run(const Start& start, std::unique_ptr<devices::DeviceGrou
     session::RunOptions options;
     options.out = start.out.empty() ? out_.toStdString() : start.out;
     options.sync = sync_;
-    options.command = "dihaptic gui " + file_.toStdString();
+    options.command = "dihaptic gui " + file().toStdString();
     options.participant = start.participant;
     options.in_study = start.in_study;
     options.clock = clock_of(*plan_, start.pace);
     // the scene shown is the resumed session's, not the file's
     changed_ = changed_ || !plan_->resumes.empty();
     escaped_ = false;
-    running_.clear();
-    start_.reset();
-    pace_ = start.pace > 0 ? start.pace : 1;
-    since_pace_.invalidate();
+    meter_.begin(start.pace);
     Q_EMIT prepared(*plan_, options);
     runner_.start(*plan_, options, start.pace, std::move(devices),
                   plan_->rig.headset ? HeadsetView::frames_from(frame_) : nullptr);
@@ -387,7 +317,6 @@ void SessionControl::refresh() {
     while (const auto sample = runner_.take_sample()) Q_EMIT sampled(*sample);
     while (const auto end = runner_.take_trial_end()) Q_EMIT trial_ended(*end);
     if (const QString folder = runner_.take_folder(); !folder.isEmpty()) {
-        running_ = folder;
         if (runner_.plan().task) figures_.follow(folder);
     }
     if (const frame::Frame& frame = runner_.read_frame(); frame.sequence >= 0) show(frame);
@@ -397,39 +326,18 @@ void SessionControl::refresh() {
 void SessionControl::show(const frame::Frame& frame) {
     Q_EMIT framed(frame);
     if (runner_.finishing()) return;
-    const QString said = texts_of(runner_.plan(), frame);
-    if (said != said_ || page_ != frame.task.page) {
-        said_ = said;
-        page_ = frame.task.page;
-        Q_EMIT changed();
-    }
-    follow_pace(seconds(frame.time));
-    if (!start_) start_ = ProgressStart{seconds(frame.time), runner_.done()};
-    Q_EMIT progressed(progress_of(runner_.plan(), frame, runner_.done(), pace_, *start_));
-}
-
-/// Measures how fast the session's time passes, once a second.
-void SessionControl::follow_pace(double now) {
-    if (runner_.paused()) return since_pace_.invalidate();
-    if (!since_pace_.isValid() || now < pace_from_) {
-        since_pace_.start();
-        pace_from_ = now;
-    } else if (since_pace_.elapsed() >= 1000) {
-        const double wall = static_cast<double>(since_pace_.restart()) * 1e-3;
-        pace_ = std::max(1e-3, (now - std::exchange(pace_from_, now)) / wall);
-    }
+    if (texts_.follow(runner_.plan(), frame)) Q_EMIT changed();
+    Q_EMIT progressed(meter_.of(runner_.plan(), frame, runner_.done(), runner_.paused()));
 }
 
 void SessionControl::end(const SessionEnd& end) {
     cut_ = runner_.stopped();
-    said_.clear();
-    page_ = -1;
+    texts_.clear();
     complaint_.clear();
     for (const QString& message : end.messages) log(message, !end.good);
     for (const QString& aside : end.asides) log(aside);
     figures_.finish();
     last_end_ = end;
-    refused_for_text_ = false;
     recorded_ = end.folder;
     if (!end.folder.isEmpty()) log(tr("recorded in %1").arg(end.folder));
     Q_EMIT rested(tr("idle"));

@@ -2,17 +2,15 @@
 // follows the session to its end. The window and its panels subscribe to the signals.
 #pragma once
 
-#include <QElapsedTimer>
-#include <QFileSystemWatcher>
 #include <QObject>
-#include <QTimer>
 #include <optional>
 
 #include "loader.h"
-#include "questions_view.h"
-#include "session_progress.h"
+#include "progress_meter.h"
 #include "session_runner.h"
+#include "task_texts.h"
 #include "trial_figures.h"
+#include "watched_file.h"
 
 namespace dihaptic::gui {
 
@@ -48,7 +46,7 @@ class SessionControl : public QObject {
     bool may(Act act) const;
     const QString& out() const { return out_; }
     void set_out(const QString& folder);
-    const QString& file() const { return file_; }
+    const QString& file() const { return file_.path(); }
     /// The plan from the last error-free version of the file; nullopt if there has been none.
     const std::optional<session::Plan>& plan() const { return plan_; }
     /// The plan's first frame.
@@ -72,12 +70,7 @@ class SessionControl : public QObject {
     /// Whether the session is paused because Escape was pressed.
     bool escaped() const { return escaped_; }
     /// The texts that the running task shows.
-    struct Words {
-        QString message;  ///< texts over the scene
-        QString page;     ///< text of the page shown instead of the scene
-        QString picture;  ///< picture on that page
-    };
-    Words words() const;
+    TaskTexts::Words words() const;
     /// The form that is being filled in, or the rating that can be answered with a click; nullopt
     /// if there is none.
     std::optional<Asked> asked() const;
@@ -85,7 +78,7 @@ class SessionControl : public QObject {
     /// Makes `file` the open file, and watches it. The file is read by read().
     void open(const QString& file);
     /// Watches the file again if another program has replaced it.
-    void watch();
+    void watch() { file_.watch(); }
     /// Reads the file as soon as no session is running or starting. `text`: used instead of the
     /// file's contents, if given.
     void read(const session::Request& request, const std::optional<std::string>& text);
@@ -157,12 +150,10 @@ class SessionControl : public QObject {
     void ended();
 
   private:
-    static QString typed(const frame::TaskFrame& task, const task::TaskPlan& plan, int scale);
     void take(const Opened& opened);
     void refuse(const QStringList& problems, bool of_file);
     void refuse_text_to_start();
     void pause_for_escape();
-    void follow_pace(double now);
     void run(const Start& start, std::unique_ptr<devices::DeviceGroup> devices);
     void show(const frame::Frame& frame);
     void end(const SessionEnd& end);
@@ -173,13 +164,11 @@ class SessionControl : public QObject {
     Loader loader_;
     SessionRunner runner_;
     TrialFigures figures_;
-    QString file_;
-    QFileSystemWatcher watcher_;
-    QTimer reload_;  ///< delays reading a changed file, which editors write in steps
+    WatchedFile file_;
     std::optional<session::Plan> plan_;
     frame::Frame frame_;
-    QString said_;   ///< the task's texts that are currently shown
-    int page_ = -1;  ///< index of the task's page that is currently shown; -1 if there is none
+    TaskTexts texts_;
+    ProgressMeter meter_;
     bool start_when_opened_ = false;
     std::optional<Start> starts_;  ///< the session to start once the file has been read
     bool edited_ = false;
@@ -187,15 +176,9 @@ class SessionControl : public QObject {
     bool changed_ = false;
     bool cut_ = false;
     bool escaped_ = false;
-    std::optional<ProgressStart> start_;  ///< unset before the running session's first frame
-    double pace_ = 1;                     ///< ratio of session time to wall time, as measured
-    double pace_from_ = 0;                ///< session time at which since_pace_ was started [s]
-    QElapsedTimer since_pace_;            ///< invalid while time stands still
-    QString running_;                     ///< folder of the running session; "" before it is known
     QString recorded_;
     QString complaint_;
     std::optional<SessionEnd> last_end_;
-    bool refused_for_text_ = false;  ///< whether the last session did not start because of errors
     std::optional<recording::Remark> begun_;  ///< a note that the operator is writing
 };
 

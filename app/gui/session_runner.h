@@ -28,6 +28,7 @@ struct SessionEnd {
     /// Why it was broken off or did not start, with the remedy; otherwise the gravest message about
     /// the recording, or "" if there is none.
     QString why;
+    bool by_text = false;  ///< whether errors of the file's text are why it did not start
     int done = 0;          ///< number of trials that are done, including those of earlier sessions
     int trials = 0;        ///< number of all trials; 0 if the session has none
     bool offered = false;  ///< whether the window will offer to continue the session
