@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import matplotlib
+import numpy as np
 from matplotlib import font_manager
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -158,7 +159,9 @@ def canvas(
 def letter_mm() -> float:
     """The width of a letter of 7 points in most words, which depends on the typeface that is installed."""
     text = "opposite field without measurement"
-    width = TextPath((0, 0), text, size=7, prop=FontProperties(size=7)).get_extents().width
+    path = TextPath((0, 0), text, size=7, prop=FontProperties(size=7))
+    # the outermost points of letters are vertices; get_extents() would solve an equation for each curve
+    width = np.ptp(path.vertices[path.codes != path.CLOSEPOLY, 0])
     return 1.06 * float(width) / len(text) / 72 * 25.4
 
 
