@@ -90,8 +90,8 @@ class _Reader:
         points = self._moving(of)
         if not points:
             return []
-        self.position = self._mean(points, "position")
-        self.velocity = self._mean(points, "velocity")
+        self.position = self._recorded(points, "position")
+        self.velocity = self._recorded(points, "velocity")
         self.sent = self._force_sent(listed, points)
         plan = [column for column in listed if re.match("(reach|movement)_", column)]
         rows = self._attempts().merge(listed[["trial_num", *plan]], on="trial_num")
@@ -108,19 +108,16 @@ class _Reader:
         points = [f"{of}."] if of in self.session.bodies else points
         return points if all(f"{point}position" in self.session for point in points) else []
 
-    def _force_sent(self, listed: pd.DataFrame, points: list[str]) -> Array | None:
-        """The force on the hand, summed over its fingers; None unless channels hold it throughout its movement."""
+    def _force_sent(self, listed: pd.DataFrame, points: list[str]) -> list[Array] | None:
+        """The forces on the hand's fingers; None unless channels hold it throughout its movement."""
         channels = "movement_channel" in listed and bool(listed["movement_channel"].eq(1).any())
         if not channels or not points[0].endswith(".handle_") or not self._walls_last():
             return None
         fingers = [point[: -len("handle_")] for point in points]
-        return len(fingers) * self._mean(fingers, "force_sent")
+        return self._recorded(fingers, "force_sent")
 
-    def _mean(self, points: list[str], quantity: str) -> Array:
-        total: Array = np.asarray(self.session[f"{points[0]}{quantity}"], float)
-        for point in points[1:]:
-            total = total + np.asarray(self.session[f"{point}{quantity}"], float)
-        return total / len(points)
+    def _recorded(self, points: list[str], quantity: str) -> list[Array]:
+        return [self.session[f"{point}{quantity}"] for point in points]
 
     def _attempts(self) -> pd.DataFrame:
         trials = self.session.trials.drop_duplicates("trial_num", keep="last")
@@ -143,7 +140,7 @@ class _Reader:
         way = float(np.linalg.norm(target - start))
         if part is None or not way >= _LEAST_WAY:
             return None
-        position, velocity = self.position[part], self.velocity[part]
+        position, velocity = _mean(self.position, part), _mean(self.velocity, part)
         every = max(1, round(STEP / self.session.tick))
         path = position[::every]
         if not np.isfinite(path).all():
@@ -193,7 +190,8 @@ class _Reader:
         if not (np.isfinite(field_of).all() and field_of.any() and np.linalg.norm(left) > 0):
             return {}
         left /= np.linalg.norm(left)
-        return {"force": -(self.sent[part] @ left)[each], "ideal": -(velocity @ field_of.T @ left)[each]}
+        force = len(self.sent) * _mean(self.sent, part)
+        return {"force": -(force @ left)[each], "ideal": -(velocity @ field_of.T @ left)[each]}
 
     def _radius(self, end: str, condition: str, tick: int) -> float:
         """Radius of a region [m]: from the task or from the ball shown there; NaN if neither is known."""
@@ -217,6 +215,12 @@ class _Reader:
         first, last = np.searchsorted(times, [begin - self.session.tick / 2, begin + 1.5 * self.session.tick])
         here = np.flatnonzero(regions[first:last] == region)
         return float(radii[first + here[-1]]) if len(here) else math.nan
+
+
+def _mean(points: list[Array], part: slice) -> Array:
+    """The mean over points of what was recorded of each, for these ticks alone: a whole session has millions of them."""
+    mean: Array = np.mean([point[part] for point in points], axis=0, dtype=float)
+    return mean
 
 
 def _words_in(value: Any) -> list[str]:
