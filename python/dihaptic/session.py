@@ -227,7 +227,7 @@ class Session:
         """Times of all ticks, since activation [s]: one for each row of a quantity of the whole tick."""
         with self._reading():
             times = self._times(self._series("sequence"))
-            if times.ndim != 1 or not (np.diff(times) > 0).all():
+            if times.ndim != 1 or not (times[1:] > times[:-1]).all():
                 raise ValueError("its times do not increase")
             return times
 
