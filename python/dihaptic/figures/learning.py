@@ -12,7 +12,6 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from scipy import special
 
 from ..errors import NotThere, error
 from .courses import (
@@ -29,7 +28,7 @@ from .courses import (
     with_texts,
 )
 from .data import Data, checked_list
-from .means import BY_T, intervals, means_with_intervals, said_of_limits, within_limits
+from .means import BY_T, intervals, means_with_intervals, said_of_limits, t_quantile, within_limits
 from .saving import Plan
 from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, faint, fit_names, legend_above, of_data, same_limits, wrapped
 from .words import counted, label, level, words_of
@@ -146,7 +145,7 @@ def laboratory_curves(data: Data, *, unit: str = "", rounds: list[str] | None = 
     spread = spread[spread["n"] >= _LEAST_LABORATORIES].reset_index()
     bands = []
     for share in BANDS:
-        half = special.stdtrit(spread["n"] - 1, 0.5 + share / 200) * spread["sd"] * np.sqrt(1 + 1 / spread["n"])
+        half = t_quantile(spread["n"] - 1, 0.5 + share / 200) * spread["sd"] * np.sqrt(1 + 1 / spread["n"])
         ends = {"low": spread["value"] - half, "high": spread["value"] + half}
         bands.append(spread.drop(columns=["sd", "value"]).assign(of=f"{share} %", **ends))
     out = pd.concat([points, *bands], ignore_index=True)

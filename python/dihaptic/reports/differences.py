@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import pandas as pd
-from scipy import special
 
 from ..figures.conditions import averaged_over, axes_of_design, counting_trials, each_in_conditions, measures_of_lifts
 from ..figures.data import Data
 from ..figures.learning import DIFFERENCES, LEARNED, WINDOWS
+from ..figures.means import t_quantile
 from ..figures.words import label, level, with_unit, words_of
 from .page import Page, between, in_short, with_interval, without_empty
 
@@ -73,7 +73,7 @@ def difference(first: pd.Series, other: pd.Series) -> Difference:
         freedom = sum(squares) ** 2 / parts if parts > 0 else math.nan
         n = f"{len(first)} and {len(other)}"
     value = float(other.mean() - first.mean())
-    half = float(special.stdtrit(freedom, 0.975)) * error if freedom >= 1 else math.nan
+    half = float(t_quantile(freedom, 0.975)) * error if freedom >= 1 else math.nan
     half = 0.0 if error == 0 else half
     return Difference(float(first.mean()), float(other.mean()), value, value - half, value + half, n)
 

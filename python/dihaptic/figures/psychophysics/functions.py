@@ -10,7 +10,6 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from scipy import special
 
 from ...errors import NotThere
 from ..data import Data, sitting_columns
@@ -36,6 +35,8 @@ def probability(
     >>> float(probability(0.3, sigmoid="normal", threshold=0.3, shape=0.1, guess=0.5, lapse=0.02))
     0.74
     """
+    from scipy import special
+
     x = np.asarray(levels, dtype=float)
     kinds: dict[str, Callable[[], Any]] = {
         "normal": lambda: special.ndtr((x - threshold) / shape),

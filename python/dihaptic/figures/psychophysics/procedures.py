@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy import special
 
 from ...errors import NotThere, error
 from ..data import Data, sitting_columns
+from ..means import t_quantile
 from ..words import words_of
 
 ALL = "all of these"  # kind of a fit to the answers of several procedures
@@ -193,7 +193,7 @@ def mean_of(values: pd.Series, logarithmic: bool) -> dict[str, Any]:
     x = np.log10(values) if logarithmic else values
     n = len(x)
     middle = x.mean()
-    half = special.stdtrit(max(1, n - 1), 0.975) * x.std() / np.sqrt(n) if n > 1 else np.nan
+    half = t_quantile(max(1, n - 1), 0.975) * x.std() / np.sqrt(n) if n > 1 else np.nan
     ends = [middle, middle - half, middle + half]
     value, low, high = [10**end if logarithmic else end for end in ends]
     return {"n": n, "value": value, "low": low, "high": high}
