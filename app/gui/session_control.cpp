@@ -114,14 +114,14 @@ void SessionControl::take(const Opened& opened) {
     plan_ = opened.plan;
     frame_ = opened.frame;
     complaint_.clear();
-    text_is_wrong_ = false;
+    if (text_ == Text::wrong) text_ = Text::edited;
     if (last_end_ && last_end_->by_text) last_end_.reset();  // the errors are mended
     // opening the devices may have added warnings
     QStringList warnings;
     for (const Problem& warning : plan_->warnings)
         warnings += QString::fromStdString(warning.text());
     Q_EMIT judged(warnings);
-    if ((!starts_ || rig::is_real(plan_->rig)) && !edited_) {
+    if ((!starts_ || rig::is_real(plan_->rig)) && !edited()) {
         for (const QString& warning : warnings) log(warning, true);
     }
     Q_EMIT this->opened(opened);
@@ -132,7 +132,7 @@ void SessionControl::take(const Opened& opened) {
         if (opened.in_study) start.in_study = opened.in_study;  // of a resumed session
         return run(start, std::move(devices));
     }
-    if (!edited_) log(tr("opened %1: %2").arg(file(), QString::fromStdString(plan_->title)));
+    if (!edited()) log(tr("opened %1: %2").arg(file(), QString::fromStdString(plan_->title)));
     Q_EMIT changed();
     if (start_when_opened_) Q_EMIT start_due();
 }
@@ -140,16 +140,16 @@ void SessionControl::take(const Opened& opened) {
 void SessionControl::refuse(const QStringList& problems, bool of_file) {
     const bool starting = starts_.has_value();
     starts_.reset();
-    if (of_file && !starting) text_is_wrong_ = edited_;
+    if (of_file && !starting && edited()) text_ = Text::wrong;
     const bool wanted = std::exchange(start_when_opened_, false);
     if (starting) {
         refuse_to_start(problems.front(), of_file);
         for (const QString& problem : problems.mid(1)) log(problem, true);
-    } else if (wanted && edited_) {
+    } else if (wanted && edited()) {
         refuse_text_to_start();
     }
     Q_EMIT judged(problems);
-    if (!edited_ && !starting) {  // while typing, the user sees errors marked in the text
+    if (!edited() && !starting) {  // while typing, the user sees errors marked in the text
         complaint_ = problems.front();
         for (const QString& problem : problems) log(problem, true);
         if (plan_) log(tr("The open file stays unchanged."));
@@ -161,7 +161,7 @@ void SessionControl::refuse(const QStringList& problems, bool of_file) {
 bool SessionControl::want_start() {
     start_when_opened_ = loader_.loading() && !starts_;
     if (!may(Act::prepare)) return false;
-    if (!text_is_wrong_ || !edited_) return true;
+    if (text_ != Text::wrong) return true;
     refuse_text_to_start();
     return false;
 }

@@ -83,7 +83,9 @@ class SessionControl : public QObject {
     /// file's contents, if given.
     void read(const session::Request& request, const std::optional<std::string>& text);
     /// Sets whether the file's text has unsaved changes.
-    void set_edited(bool edited) { edited_ = edited; }
+    void set_edited(bool edited) {
+        if (edited != this->edited()) text_ = edited ? Text::edited : Text::saved;
+    }
     /// Whether the checks before a session may begin now. If the file is still being read,
     /// start_due() will be emitted afterwards.
     bool want_start();
@@ -158,6 +160,10 @@ class SessionControl : public QObject {
     void show(const frame::Frame& frame);
     void end(const SessionEnd& end);
     void log(const QString& text, bool problem = false) { Q_EMIT logged(text, problem); }
+    bool edited() const { return text_ != Text::saved; }
+
+    /// The file's text in the editor. `wrong`: it has unsaved changes and errors.
+    enum class Text { saved, edited, wrong };
 
     QString out_;
     double sync_;
@@ -171,8 +177,7 @@ class SessionControl : public QObject {
     ProgressMeter meter_;
     bool start_when_opened_ = false;
     std::optional<Start> starts_;  ///< the session to start once the file has been read
-    bool edited_ = false;
-    bool text_is_wrong_ = false;  ///< whether the unsaved text has errors
+    Text text_ = Text::saved;
     bool changed_ = false;
     bool cut_ = false;
     bool escaped_ = false;

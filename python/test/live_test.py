@@ -107,6 +107,19 @@ class Live(unittest.TestCase):
         with self.assertRaisesRegex(dh.Error, "has no running session"):
             dh.observe(self.out, patience_s=0)
 
+    def test_keys_that_are_sent_at_once_all_arrive(self):
+        states = [f"{{ name: key {i}, exits: [{{ when: key, key: {key}, to: key {i + 1} }}] }}" for i, key in enumerate("yny1")]
+        file = self.folder / "keys.yaml"
+        scene = pathlib.Path("scenes/block-on-table.yaml").absolute()
+        end = "{ name: key 4, exits: [{ when: time, after_s: 0.01, outcome: all }] }"
+        file.write_text(f"scene: {scene}\ntask:\n  states: [{', '.join([*states, end])}]\n  blocks: [{{ name: all }}]\n")
+        run = self.start(str(file))
+        with dh.observe(self.out, "grip_force") as live:
+            next(iter(live))
+            for key in "yny1":
+                live.press(key)
+        self.assertEqual(list(self.session(run)[0].trials.outcome), ["all"])
+
     def test_is_steered(self):
         run = self.start(self.task(repeats=3))
         ends = []

@@ -39,15 +39,11 @@ Vec3 up() {
 
 }  // namespace
 
-Grip::Grip(const Traits& traits, std::vector<GripMemory> memory, double tick)
-    : traits_(traits),
-      looks_(std::move(memory)),
-      memory_(looks_),
-      tick_(tick),
-      past_(kLongestLatency, tick) {}
+Grip::Grip(const Traits& traits, BodyMemories memories, double tick)
+    : traits_(traits), memories_(std::move(memories)), tick_(tick), past_(kLongestLatency, tick) {}
 
-void Grip::restart() noexcept {
-    std::copy(looks_.begin(), looks_.end(), memory_.begin());
+void Grip::restart(const std::vector<Learned::OfBody>& before) noexcept {
+    memories_.restart(before);
     past_.clear();
     end();
 }
@@ -70,7 +66,7 @@ void Grip::remember() noexcept {
     if (!weighed_) return;
     weighed_ = false;
     memory().lifted(weight_, traits_.weight_learning);
-    const double looks = looks_[static_cast<size_t>(body_)].friction;
+    const double looks = memories_.looks(body_).friction;
     memory().friction += kTrust * (looks - memory().friction);
 }
 
@@ -113,7 +109,7 @@ void Grip::carried() noexcept {
 double Grip::needed(const Vec3& force_W, const Vec3& axis) const noexcept {
     const double along = force_W.dot(axis);
     const double across = (force_W - along * axis).norm();
-    const double friction = memory_[static_cast<size_t>(body_)].friction;
+    const double friction = memories_.of(body_).friction;
     return model::grip_with_margin(across, friction, traits_.safety_margin) + std::abs(along) / 2;
 }
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "person/grip_memory.h"
+#include "person/body_memories.h"
 #include "person/past.h"
 #include "person/strokes.h"
 #include "person/touch.h"
@@ -23,10 +23,10 @@ enum class GripPhase {
 
 class Grip {
   public:
-    /// `memory`: for each body of the scene, the properties that its appearance suggests.
-    Grip(const Traits& traits, std::vector<GripMemory> memory, double tick);
+    Grip(const Traits& traits, BodyMemories memories, double tick);
 
-    void restart() noexcept;
+    /// `before`: what is known from earlier sessions.
+    void restart(const std::vector<Learned::OfBody>& before) noexcept;
     /// The values that differ from trial to trial.
     struct Trial {
         double latency = 0.075;  ///< reflex latency [s]
@@ -56,18 +56,12 @@ class Grip {
     double squeeze() const { return squeeze_; }
     /// Planned force on the object, in addition to the load force of the aim [N].
     const Vec3& inertial() const { return inertial_; }
-    /// The properties that the appearance of a body suggests.
-    const GripMemory& look(int body) const { return looks_[static_cast<size_t>(body)]; }
-    /// Replaces what the appearance of a body suggests with what is known about it.
-    void recall(int body, const GripMemory& known) noexcept {
-        memory_[static_cast<size_t>(body)] = known;
-    }
-    const GripMemory& memory(int body) const { return memory_[static_cast<size_t>(body)]; }
+    const BodyMemories& memories() const { return memories_; }
     /// What is felt in this tick, i.e. the touch one reflex latency ago.
     const Feeling& felt() const { return past_.before(trial_.latency); }
 
   private:
-    GripMemory& memory() noexcept { return memory_[static_cast<size_t>(body_)]; }
+    GripMemory& memory() noexcept { return memories_.of(body_); }
     bool carries() const noexcept {
         return phase_ == GripPhase::load || phase_ == GripPhase::lifted;
     }
@@ -83,8 +77,7 @@ class Grip {
     void end() noexcept;
 
     Traits traits_;
-    std::vector<GripMemory> looks_;
-    std::vector<GripMemory> memory_;
+    BodyMemories memories_;
     double tick_;
     Past<Feeling> past_;
     Trial trial_;

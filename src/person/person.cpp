@@ -73,17 +73,18 @@ std::vector<hand::FingerPlace> own_places(const Situation& situation) {
 
 /// The properties that the appearance of objects suggests: uniform and of usual density, with
 /// approximately their true friction.
-std::vector<GripMemory> looks_of(const scene::Scene& scene, size_t first, const Traits& traits,
-                                 uint64_t seed) {
-    std::vector<GripMemory> out;
+BodyMemories looks_of(const scene::Scene& scene, size_t first, const Traits& traits,
+                      uint64_t seed) {
+    BodyMemories out;
     Random random(seed, fmt::format("looks to {}", traits.id));
     for (scene::Body body : scene.bodies) {
-        GripMemory& look = out.emplace_back();
+        GripMemory look;
         const double misjudged = std::exp(traits.friction_error * random.normal());
         look.friction = misjudged * friction_of(scene, first, body);
         body.mass.reset();
         body.density = kUsualDensity;
         if (body.moves_at_all()) look.weight = kGravity * scene::mass(body);
+        out.add(body.name, look);
     }
     return out;
 }
@@ -128,7 +129,6 @@ Person::Person(const Traits& traits, const Situation& situation)
       memories_(traits, *plan_, steps_),
       grip_(traits, looks_of(situation.scene, senses_.felt.first(), traits, situation.seed),
             situation.tick) {
-    for (const scene::Body& body : situation.scene.bodies) bodies_.push_back(body.name);
     for (const std::string& name : plan_->phases()) phases_.push_back({name, 0, 0});
     if (plan_->first_fingers.size() == 1 &&
         senses_.felt.places().size() < situation.scene.fingers.size())
@@ -141,9 +141,8 @@ void Person::restart() {
     if (other_) other_->restart();
     now_ = 0;
     senses_.restart();
-    grip_.restart();
+    grip_.restart(before_.bodies);
     memories_.restart(before_.states);
-    recall_bodies();
     aim_.rest(start_);
     numbers_.restart();
     cue_ = {};
@@ -153,30 +152,12 @@ void Person::restart() {
 }
 
 Learned Person::learned() const {
-    Learned out;
-    out.states = memories_.overnight();
-    for (size_t i = 0; i < bodies_.size(); ++i) {
-        const int body = static_cast<int>(i);
-        out.bodies.push_back({bodies_[i], grip_.look(body).weight, grip_.memory(body)});
-    }
-    return out;
+    return {memories_.overnight(), grip_.memories().overnight()};
 }
 
 void Person::recall(Learned before) {
     before_ = std::move(before);
     restart();
-}
-
-void Person::recall_bodies() noexcept {
-    constexpr double kAlike = 1e-9;  // [N]
-    for (const Learned::OfBody& known : before_.bodies) {
-        for (size_t i = 0; i < bodies_.size(); ++i) {
-            const int body = static_cast<int>(i);
-            if (bodies_[i] == known.body &&
-                std::abs(grip_.look(body).weight - known.looks) < kAlike)
-                grip_.recall(body, known.memory);
-        }
-    }
 }
 
 const std::vector<TaskPlan::Step>& Person::steps() const noexcept {

@@ -94,7 +94,6 @@ class Person final : public task::SeeingDriver {
     void do_see(const frame::Frame& frame) noexcept override;
     char do_take_key() noexcept override;
 
-    void recall_bodies() noexcept;
     void follow_cues(const Sight& sight) noexcept;
     void await_trial() noexcept;
     void begin_attempt() noexcept;
@@ -146,8 +145,7 @@ class Person final : public task::SeeingDriver {
     Aim start_;
 
     // memory
-    Learned before_;  // what was learned in earlier sessions
-    std::vector<std::string> bodies_;
+    Learned before_;                                        // what was learned in earlier sessions
     std::vector<std::vector<task::TaskPlan::Step>> steps_;  // by state
     StateMemories memories_;
     Grip grip_;

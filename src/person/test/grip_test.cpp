@@ -18,7 +18,7 @@ namespace {
 /// What the fingers feel while they hold an object with a weight of 2 N.
 class Held : public ::testing::Test {
   protected:
-    Held() : grip_(numb(), {memory()}, kTick) {
+    Held() : grip_(numb(), bodies(), kTick) {
         grip_.set({.latency = traits_.reflex_latency});
         felt_.body = 0;
         felt_.friction = 0.8;
@@ -41,10 +41,9 @@ class Held : public ::testing::Test {
         out.skin_time = 0;
         return out;
     }
-    static GripMemory memory() {
-        GripMemory out;
-        out.weight = kWeight;
-        out.friction = 0.8;
+    static BodyMemories bodies() {
+        BodyMemories out;
+        out.add("block", {.weight = kWeight, .friction = 0.8});
         return out;
     }
     void run(double duration) {
@@ -92,12 +91,12 @@ TEST_F(Held, IsGrippedHarderAReflexLatencyAfterASlipAndRemembersTheSurface) {
     felt_.slips = false;
     run(0.3);
     EXPECT_GT(grip_.squeeze(), 1.2 * before);
-    EXPECT_NEAR(grip_.memory(0).friction, 0.6, 1e-9);
+    EXPECT_NEAR(grip_.memories().of(0).friction, 0.6, 1e-9);
 }
 
 TEST_F(Held, IsRememberedByItsWeightOnceItWasReplaced) {
     grip_.release(now_, aim_);
-    EXPECT_NEAR(grip_.memory(0).weight, kWeight, 0.01);
+    EXPECT_NEAR(grip_.memories().of(0).weight, kWeight, 0.01);
     run(0.5);
     EXPECT_EQ(grip_.phase(), GripPhase::open);
     EXPECT_EQ(grip_.squeeze(), 0);
@@ -300,7 +299,8 @@ TEST(Lifts, WithDirectionalMassAreLearnedByASingleRate) {
     const auto& person = static_cast<const Person&>(*plan.seeing);
     std::vector<double> learned;  // learned extra mass along x at the end of each trial
     run_trials(plan, [&](const frame::Frame& frame) {
-        if (frame.task.outcome >= 0) learned.push_back(person.grip().memory(1).more_mass.x());
+        if (frame.task.outcome >= 0)
+            learned.push_back(person.grip().memories().of(1).more_mass.x());
     });
     ASSERT_EQ(learned.size(), 15u);
     const double before = learned[2];  // systematic error in the perceived mass
@@ -311,8 +311,8 @@ TEST(Lifts, WithDirectionalMassAreLearnedByASingleRate) {
         x = next(traits.mass(), x, excess - x);
         EXPECT_NEAR(learned[i] - before, x, 0.15 * excess) << i;
     }
-    EXPECT_NEAR(person.grip().memory(1).weight, 0.981, 0.05);
-    EXPECT_NEAR(person.grip().memory(1).more_mass.y(), 0, 0.02);
+    EXPECT_NEAR(person.grip().memories().of(1).weight, 0.981, 0.05);
+    EXPECT_NEAR(person.grip().memories().of(1).more_mass.y(), 0, 0.02);
 }
 
 }  // namespace

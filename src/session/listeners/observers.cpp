@@ -165,14 +165,56 @@ void turn(T& knob, const frame::Knob& is, const Json& value) {
     }
 }
 
+/// What observers want of the session. The observers' thread asks, and the ticks do it.
+class Requests {
+  public:
+    explicit Requests(const Opening& opening)
+        : knobs_elsewhere_(opening.options.live != nullptr),
+          knobs_(frame::Knobs::of(opening.plan.settings)) {
+        turner_.prepare(opening.servo, opening.plan.scene);
+    }
+
+    // for the observers' thread; a request that cannot be granted throws Refusal
+    void press(char key) { append(keys_, key, keys_pressed_); }
+    void trigger(int code) { append(triggers_, code, triggers_sent_); }
+    void turn_knobs(const Json& asked);
+    void end() { end_ = true; }
+    /// What was asked for during the session; "" if nothing was.
+    std::string summary() const;
+
+    // for the ticks
+    void steer(const Steering& steering) noexcept;
+    bool ends() const noexcept { return end_.load(std::memory_order_relaxed); }
+
+  private:
+    template <class T>
+    static void append(ValueRing<T>& ring, T value, int64_t& count) {
+        if (!ring.push(value))
+            throw Refusal{"Too many requests wait for the session. Send them more slowly."};
+        ++count;
+    }
+
+    static constexpr size_t kMostWaiting = 64;
+    ValueRing<char> keys_{kMostWaiting};
+    ValueRing<int> triggers_{kMostWaiting};
+    KnobTurner turner_;
+    std::atomic<bool> turned_{false};
+    std::atomic<bool> end_{false};
+
+    // used only by the observers' thread
+    const bool knobs_elsewhere_;  // whether only the window may turn the knobs
+    frame::Knobs knobs_;
+    int64_t keys_pressed_ = 0, triggers_sent_ = 0, turns_ = 0;
+};
+
 class Observers : public Listener {
   public:
     explicit Observers(const Opening& opening);
     ~Observers() override { Observers::finish(); }
 
-    void steer(const Steering& steering) noexcept override;
+    void steer(const Steering& steering) noexcept override { requests_.steer(steering); }
     void take(const frame::Frame& frame) noexcept override;
-    bool ends() const noexcept override { return end_.load(std::memory_order_relaxed); }
+    bool ends() const noexcept override { return requests_.ends(); }
     std::vector<std::string> finish() override;
 
   private:
@@ -182,7 +224,6 @@ class Observers : public Listener {
     void hear(Observer& observer, const std::string& text);
     void watch(Observer& observer, const Json& asked);
     void request(const Json& asked);
-    void turn_knobs(const Json& asked);
     void look(Wall::time_point now);
     Json picture_of(const frame::Frame& frame, Observer& observer) const;
     Json name_of(const std::vector<std::string>& names, int32_t index) const {
@@ -193,7 +234,6 @@ class Observers : public Listener {
     const scene::Scene& scene_;
     const std::string folder_;
     const bool real_;
-    const bool knobs_elsewhere_;  // whether only the window may turn the knobs
     std::vector<std::string> states_;
     std::vector<std::string> outcomes_;
 
@@ -201,30 +241,66 @@ class Observers : public Listener {
     ValueRing<Ended> ends_{64};
     std::atomic<bool> watched_{false};
     Time shown_{0};
-    KnobTurner turner_;
-    std::atomic<bool> turned_{false};
-    std::atomic<char> key_{0};
-    std::atomic<int> trigger_{0};
-    std::atomic<bool> end_{false};
+    Requests requests_;
 
     // used only by the observers' thread
-    frame::Knobs knobs_;
     std::list<Observer> observers_;
-    size_t keys_ = 0, triggers_ = 0, turns_ = 0;
     std::optional<Listening> listening_;
     std::atomic<bool> done_{false};
     std::thread thread_;
 };
 
+void Requests::turn_knobs(const Json& asked) {
+    if (knobs_elsewhere_) throw Refusal{"The operator's window turns the knobs of this session."};
+    frame::Knobs next = knobs_;
+    for (const auto& [name, value] : asked.items()) {
+        bool found = false;
+        const std::string wanted = name;
+        const Json& to = value;
+        frame::Knobs::visit([&](auto member, const frame::Knob& is) {
+            if (is.key == nullptr || wanted != is.name) return;
+            turn(next.*member, is, to);
+            found = true;
+        });
+        if (!found) {
+            std::vector<std::string> names;
+            frame::Knobs::visit([&](auto, const frame::Knob& is) {
+                if (is.key != nullptr) names.emplace_back(is.name);
+            });
+            throw Refusal{
+                fmt::format("There is no knob {}. Known: {}.", wanted, fmt::join(names, ", "))};
+        }
+    }
+    turner_.publish(knobs_ = next);
+    turned_ = true;
+    ++turns_;
+}
+
+void Requests::steer(const Steering& steering) noexcept {
+    while (const auto key = keys_.pop()) {
+        if (steering.task != nullptr) steering.task->press(*key);
+    }
+    // a task takes one trigger in each tick
+    if (const auto code = triggers_.pop(); code && steering.task != nullptr)
+        steering.task->trigger(*code);
+    if (turned_.load(std::memory_order_relaxed))
+        turner_.turn(steering.last, seconds(steering.period), steering.commands.knobs);
+}
+
+std::string Requests::summary() const {
+    if (keys_pressed_ + triggers_sent_ + turns_ == 0 && !end_) return "";
+    return fmt::format("Other programs that watched the session steered it: {}, {}, {} of knobs{}.",
+                       counted(keys_pressed_, "key"), counted(triggers_sent_, "trigger"),
+                       counted(turns_, "turn"), end_ ? ", and its end" : "");
+}
+
 Observers::Observers(const Opening& opening)
     : scene_(opening.plan.scene),
       folder_(opening.folder.path()),
       real_(opening.real),
-      knobs_elsewhere_(opening.options.live != nullptr),
       outcomes_(opening.info.outcomes),
-      knobs_(frame::Knobs::of(opening.plan.settings)) {
+      requests_(opening) {
     for (const recording::PhaseInfo& phase : opening.info.phases) states_.push_back(phase.name);
-    turner_.prepare(opening.servo, scene_);
     for (frame::Frame& frame : newest_.values()) opening.servo.reserve(frame);
     listening_.emplace(folder_);
     thread_ = std::thread([this] { run(); });
@@ -332,15 +408,13 @@ void Observers::request(const Json& asked) {
     for (const auto& [what, value] : asked.items()) {
         const std::string text = value.is_string() ? value.get<std::string>() : "";
         if (const auto key = task::key_named(text); what == "key" && key) {
-            key_ = *key;
-            ++keys_;
+            requests_.press(*key);
         } else if (what == "trigger" && value.is_number_integer() && value >= 1 && value <= 255) {
-            trigger_ = value.get<int>();
-            ++triggers_;
+            requests_.trigger(value.get<int>());
         } else if (what == "turn" && value.is_object()) {
-            turn_knobs(value);
+            requests_.turn_knobs(value);
         } else if (what == "end" && value == true) {
-            end_ = true;
+            requests_.end();
         } else {
             throw Refusal{
                 fmt::format("{}: {} is not understood. Valid keys are watch, key (one character, "
@@ -349,32 +423,6 @@ void Observers::request(const Json& asked) {
                             what, value.dump())};
         }
     }
-}
-
-void Observers::turn_knobs(const Json& asked) {
-    if (knobs_elsewhere_) throw Refusal{"The operator's window turns the knobs of this session."};
-    frame::Knobs next = knobs_;
-    for (const auto& [name, value] : asked.items()) {
-        bool found = false;
-        const std::string wanted = name;
-        const Json& to = value;
-        frame::Knobs::visit([&](auto member, const frame::Knob& is) {
-            if (is.key == nullptr || wanted != is.name) return;
-            turn(next.*member, is, to);
-            found = true;
-        });
-        if (!found) {
-            std::vector<std::string> names;
-            frame::Knobs::visit([&](auto, const frame::Knob& is) {
-                if (is.key != nullptr) names.emplace_back(is.name);
-            });
-            throw Refusal{
-                fmt::format("There is no knob {}. Known: {}.", wanted, fmt::join(names, ", "))};
-        }
-    }
-    turner_.publish(knobs_ = next);
-    turned_ = true;
-    ++turns_;
 }
 
 void Observers::look(Wall::time_point now) {
@@ -415,15 +463,6 @@ Json Observers::picture_of(const frame::Frame& frame, Observer& observer) const 
             {"values", values}};
 }
 
-void Observers::steer(const Steering& steering) noexcept {
-    const char key = key_.exchange(0, std::memory_order_relaxed);
-    const int trigger = trigger_.exchange(0, std::memory_order_relaxed);
-    if (steering.task != nullptr && key != 0) steering.task->press(key);
-    if (steering.task != nullptr && trigger != 0) steering.task->trigger(trigger);
-    if (turned_.load(std::memory_order_relaxed))
-        turner_.turn(steering.last, seconds(steering.period), steering.commands.knobs);
-}
-
 void Observers::take(const frame::Frame& frame) noexcept {
     if (!watched_.load(std::memory_order_relaxed)) return;
     if (frame.task.outcome >= 0)
@@ -439,12 +478,8 @@ std::vector<std::string> Observers::finish() {
     done_ = true;
     thread_.join();
     listening_.reset();
-    if (keys_ + triggers_ + turns_ == 0 && !end_) return {};
-    return {
-        fmt::format("Other programs that watched the session steered it: {}, {}, {} of knobs{}.",
-                    counted(static_cast<int64_t>(keys_), "key"),
-                    counted(static_cast<int64_t>(triggers_), "trigger"),
-                    counted(static_cast<int64_t>(turns_), "turn"), end_ ? ", and its end" : "")};
+    const std::string steered = requests_.summary();
+    return steered.empty() ? std::vector<std::string>() : std::vector{steered};
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ TEST(Observers, SeeTicksThatAllocateNothing) {
     const Watched watched(sessions, plan, *servo);
     const Observer observer(socket_name(watched.folder.path()));
     observer.send(R"({"turn": {"stiffness": 300}})");
-    observer.send(R"({"key": "y"})");
+    observer.send(R"({"key": "y", "trigger": 7})");
+    observer.send(R"({"key": "n"})");
     observer.send(R"({"watch": ["grip_force", "stiffness"], "every_ms": 0})");
     EXPECT_NE(observer.read().find("watching"), std::string::npos);
     servo->activate();
@@ -86,7 +87,7 @@ TEST(Observers, SeeTicksThatAllocateNothing) {
     EXPECT_NE(observer.read().find("\"values\""), std::string::npos);
     const std::vector<std::string> told = watched.observers->finish();
     ASSERT_EQ(told.size(), 1u);
-    EXPECT_NE(told[0].find("1 key, 0 triggers, 1 turn of knobs."), std::string::npos) << told[0];
+    EXPECT_NE(told[0].find("2 keys, 1 trigger, 1 turn of knobs."), std::string::npos) << told[0];
     std::string last;
     for (std::string said; !(said = observer.read()).empty();) last = said;
     EXPECT_EQ(last, R"({"over":true})");
