@@ -12,7 +12,7 @@
 #include "model/grasp.h"
 #include "view/colours.h"
 #include "view/gl.h"
-#include "view/hand_bones.h"
+#include "view/hand_mesh.h"
 #include "view/joint_marks.h"
 #include "view/shaders.h"
 #include "view/shadow_map.h"
@@ -36,9 +36,6 @@ Mat3 light_rotation() {
     R_WL << x, z.cross(x), z;
     return R_WL.transpose();
 }
-
-constexpr double kRod = 0.01;      // so small that the rounded ends have no visible length
-constexpr double kKnuckle = 1.04;  // factor on a bone's radius that hides the seam between bones
 
 /// The matrix that scales a model and moves it to a pose.
 Eigen::Matrix4d placed(const Pose& X, const Vec3& scale = Vec3::Ones()) {
@@ -131,10 +128,10 @@ struct SceneView::Parts {
     std::map<const Image*, gl::Texture> pictures;
     gl::Program background;
     gl::VertexArray nothing;
-    gl::Model ball;  // sphere of radius 1
-    gl::Model rod;   // rod of radius kRod along z, from 0 to 1
-    Thing skin;      // the hand's colour
-    int thumb = -1;  // indices of these fingers; -1 if missing
+    gl::Model ball;                 // sphere of radius 1
+    std::optional<HandMesh> hand;   // made when it is first drawn
+    std::optional<gl::Model> skin;  // the hand in the frame that is being drawn
+    int thumb = -1;                 // indices of these fingers; -1 if missing
     int index = -1;
     // the multisampled picture
     gl::Framebuffer samples;
@@ -156,8 +153,6 @@ struct SceneView::Parts {
         glGenVertexArrays(1, &name);
         nothing = gl::VertexArray(name);
         ball = gl::Model(triangles(scene::Shape::sphere(1)));
-        rod = gl::Model(tube(std::array{Vec3(0, 0, 0), Vec3(0, 0, 1)}, kRod));
-        skin.colour = linear_colour("#c9a58f");
         for (size_t i = 0; i < scene.bodies.size(); ++i) {
             const Thing& thing =
                 bodies.emplace_back(thing_of(scene, i, texture_of(scene.bodies[i].picture)));
@@ -255,28 +250,24 @@ struct SceneView::Parts {
     /// experiment; null if there is none.
     using Prepare = std::function<const gl::Program&(const Thing&, const Vec3* tint)>;
 
-    void draw_hand(const frame::Frame& frame, const Prepare& prepare) const {
+    /// Poses the hand for this frame, if it is to be drawn and holds something.
+    void pose_hand(const frame::Frame& frame, bool drawn) {
+        skin.reset();
         const auto is_seen = [&](int finger) {
             return finger >= 0 &&
                    frame::is_displayed(frame, bodies.size() + static_cast<size_t>(finger));
         };
-        if (!is_seen(thumb) || !is_seen(index)) return;
-        const gl::Program& program = prepare(skin, nullptr);
-        const auto put = [&](const gl::Model& model, const Pose& X, const Vec3& size) {
-            program.set("world_from_model", placed(X, size));
-            model.draw();
+        if (!drawn || !is_seen(thumb) || !is_seen(index)) return;
+        const auto at = [&](int finger) {
+            return frame::displayed_proxy(frame, static_cast<size_t>(finger)).p;
         };
-        for (const Bone& bone :
-             hand_bones(frame::displayed_proxy(frame, static_cast<size_t>(thumb)).p,
-                        frame::displayed_proxy(frame, static_cast<size_t>(index)).p)) {
-            const double wide = bone.radius / kRod;
-            put(rod, along(bone.from, bone.to), {wide, wide, (bone.to - bone.from).norm()});
-            for (const Vec3& end : {bone.from, bone.to})
-                put(ball, {Quat::Identity(), end}, Vec3::Constant(kKnuckle * bone.radius));
-        }
+        const auto pose = hand_pose(at(thumb), at(index));
+        if (!pose) return;
+        if (!hand) hand.emplace();
+        skin.emplace(hand->posed(*pose));
     }
 
-    void draw_models(const frame::Frame& frame, bool hand, const Prepare& prepare) const {
+    void draw_models(const frame::Frame& frame, const Prepare& prepare) const {
         const auto draw = [&](const Thing& thing, size_t body, const Pose& X) {
             if (!frame::is_displayed(frame, body)) return;
             const frame::LookFrame* look = frame::item_of(frame.task.looks, body);
@@ -292,7 +283,6 @@ struct SceneView::Parts {
             draw(bodies[i], i, frame::displayed_body(frame, i));
         for (size_t i = 0; i < fingers.size(); ++i)
             draw(fingers[i], bodies.size() + i, frame::displayed_proxy(frame, i));
-        if (hand) draw_hand(frame, prepare);
     }
 
     /// The world as the light sees it, for the shadow map.
@@ -303,19 +293,20 @@ struct SceneView::Parts {
 
     Shown draw(const frame::Frame& frame, std::span<const Pane> all, int new_width, int new_height,
                const Overlays& overlays);
-    Lamp render_shadows(const frame::Frame& frame, bool hand);
+    Lamp render_shadows(const frame::Frame& frame);
     void draw_patch(const PatchLook& look) const;
     // `corner` and `size` are those of a pane [pixels]
     void draw_background(const Eigen::Vector2d& corner, const Eigen::Vector2d& size) const;
     void draw_surfaces(const frame::Frame& frame, const Viewpoint& viewpoint,
-                       const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const Lamp& lamp,
-                       bool hand) const;
+                       const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
+                       const Lamp& lamp) const;
     void draw_overlays(const frame::Frame& frame, const Overlays& overlays) const;
     void add_drop_lines(Solids& out, const frame::Frame& frame) const;
     void add_picked(Solids& out, const frame::Frame& frame, size_t body) const;
     void add_contacts(Solids& out, const frame::Frame& frame, const Overlays& overlays) const;
     void draw_solids(const Solids& solids) const;
     void draw_targets(const frame::Frame& frame) const;
+    void draw_hand() const;
     void draw_ghosts(const frame::Frame& frame) const;
 };
 
@@ -350,7 +341,8 @@ Shown SceneView::Parts::draw(const frame::Frame& frame, std::span<const Pane> al
                              int new_height, const Overlays& overlays) {
     const KeepTarget target;
     resize(new_width, new_height);
-    const Lamp lamp = render_shadows(frame, overlays.hand);
+    pose_hand(frame, overlays.hand);
+    const Lamp lamp = render_shadows(frame);
     glBindFramebuffer(GL_FRAMEBUFFER, samples);
     glEnable(GL_SCISSOR_TEST);
     for (const Pane& pane : all) {
@@ -365,7 +357,7 @@ Shown SceneView::Parts::draw(const frame::Frame& frame, std::span<const Pane> al
         glFrontFace(pane.viewpoint.flipped ? GL_CW : GL_CCW);
         const Eigen::Vector2d corner(left, bottom), size(across, up);
         draw_background(corner, size);
-        draw_surfaces(frame, pane.viewpoint, corner, size, lamp, overlays.hand);
+        draw_surfaces(frame, pane.viewpoint, corner, size, lamp);
         draw_overlays(frame, overlays);
     }
     glFrontFace(GL_CCW);
@@ -408,7 +400,7 @@ void SceneView::Parts::draw_patch(const PatchLook& look) const {
     glClearBufferfv(GL_COLOR, 0, std::array{light, light, light, 1.f}.data());
 }
 
-SceneView::Parts::Lamp SceneView::Parts::render_shadows(const frame::Frame& frame, bool hand) {
+SceneView::Parts::Lamp SceneView::Parts::render_shadows(const frame::Frame& frame) {
     const Mat3 R_LW = light_rotation();
     const double half = reach(frame, R_LW);
     Lamp out;
@@ -416,14 +408,17 @@ SceneView::Parts::Lamp SceneView::Parts::render_shadows(const frame::Frame& fram
     out.light_from_world.topRightCorner<3, 1>() =
         -out.light_from_world.topLeftCorner<3, 3>() * start;
     out.texel = 2 * half / shadow_map.size();
-    shadow_map.render(
-        out.light_from_world, kDepthRange, out.texel, kind == Shadows::variance,
-        [&](const gl::Program& program) {
-            program.set("world_from_model", gl::matrix(X_WF));
-            floor.draw();
-            draw_models(frame, hand,
-                        [&](const Thing&, const Vec3*) -> const gl::Program& { return program; });
-        });
+    shadow_map.render(out.light_from_world, kDepthRange, out.texel, kind == Shadows::variance,
+                      [&](const gl::Program& program) {
+                          program.set("world_from_model", gl::matrix(X_WF));
+                          floor.draw();
+                          draw_models(frame, [&](const Thing&, const Vec3*) -> const gl::Program& {
+                              return program;
+                          });
+                          if (!skin) return;
+                          program.set("world_from_model", gl::matrix(Pose{}));
+                          skin->draw();
+                      });
     return out;
 }
 
@@ -440,7 +435,7 @@ void SceneView::Parts::draw_background(const Eigen::Vector2d& corner,
 
 void SceneView::Parts::draw_surfaces(const frame::Frame& frame, const Viewpoint& viewpoint,
                                      const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
-                                     const Lamp& lamp, bool hand) const {
+                                     const Lamp& lamp) const {
     const float furthest = 1;
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
@@ -466,7 +461,7 @@ void SceneView::Parts::draw_surfaces(const frame::Frame& frame, const Viewpoint&
     begin(surface);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, shadow_map.texture());
-    draw_models(frame, hand, [&](const Thing& thing, const Vec3* tint) -> const gl::Program& {
+    draw_models(frame, [&](const Thing& thing, const Vec3* tint) -> const gl::Program& {
         const gl::Program& program = thing.has_looks(tint) ? *looks : surface;
         program.use();
         thing.set(program, tint);
@@ -497,6 +492,23 @@ void SceneView::Parts::draw_targets(const frame::Frame& frame) const {
     surface.set("rim", 0.0);
     glDisable(GL_CULL_FACE);
     glDepthMask(GL_TRUE);
+}
+
+/// Draws the hand as transparent, so that fingers and objects that it covers remain visible. Only
+/// the skin that is nearest to the eye is drawn: its depth is found first.
+void SceneView::Parts::draw_hand() const {
+    if (!skin) return;
+    surface.set("gloss", 0.4);
+    surface.set("albedo", ink("#c9a58f"));
+    surface.set("world_from_model", gl::matrix(Pose{}));
+    surface.set("alpha", 0.0);
+    skin->draw();
+    glDepthFunc(GL_EQUAL);
+    surface.set("alpha", 0.6);
+    surface.set("rim", 0.35);
+    skin->draw();
+    surface.set("rim", 0.0);
+    glDepthFunc(GL_LESS);
 }
 
 /// Draws ghosts on top of everything, because the handle of a finger that presses a body is inside
@@ -597,6 +609,7 @@ void SceneView::Parts::draw_overlays(const frame::Frame& frame, const Overlays& 
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     draw_targets(frame);
     draw_solids(solids);
+    draw_hand();
     if (overlays.handles) draw_ghosts(frame);
     glDisable(GL_BLEND);
 }
