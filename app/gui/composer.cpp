@@ -4,6 +4,7 @@
 #include <QLocale>
 #include <QMessageBox>
 #include <QRegularExpression>
+#include <QTimer>
 #include <QVBoxLayout>
 
 #include "base/regular_file.h"
@@ -318,8 +319,10 @@ bool Composer::may_overwrite() {
                         .arg(file_.name()),
                     QMessageBox::NoButton, this);
     auto* overwrite = box.addButton(tr("&Overwrite"), QMessageBox::DestructiveRole);
+    auto* another = box.addButton(tr("Save &As ..."), QMessageBox::AcceptRole);
     box.setDefaultButton(box.addButton(QMessageBox::Cancel));
     box.exec();
+    if (box.clickedButton() == another) QTimer::singleShot(0, this, &Composer::save_as_wanted);
     return box.clickedButton() == overwrite ||
            refuse(tr("Not saved: %1 was changed by another program. Save the text under another "
                      "name (Ctrl+Shift+S), or open the file again to read its present content.")

@@ -84,6 +84,8 @@ class Composer : public QWidget {
     void redo_available(bool available);
     /// The cursor may now be in another body's lines, because it moved or the text changed.
     void cursor_moved();
+    /// The text should be saved under another name.
+    void save_as_wanted();
     /// Passes on the signal of the same name from CodeEdit.
     void step_wanted(const QKeyEvent& event);
 

@@ -34,6 +34,8 @@ DevicePanel::DevicePanel(QWidget* parent)
     : QWidget(parent), table_(new QTableWidget(0, DeviceColumn::count)), loop_(new QLabel) {
     table_->setHorizontalHeaderLabels(
         {tr("Finger"), tr("Force / limit"), tr("Load"), tr("Status"), tr("Device")});
+    table_->horizontalHeaderItem(DeviceColumn::bar)
+        ->setToolTip(tr("The force as a share of its limit"));
     table_->verticalHeader()->hide();
     table_->horizontalHeader()->setStretchLastSection(true);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);

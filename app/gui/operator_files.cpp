@@ -37,6 +37,7 @@ void OperatorWindow::connect_files() {
     connect(&control_, &SessionControl::judged, composer_, &Composer::show_problems);
     connect(&control_, &SessionControl::file_changed, this, &OperatorWindow::reload);
     connect(composer_, &Composer::cursor_moved, this, &OperatorWindow::mark_picked);
+    connect(composer_, &Composer::save_as_wanted, this, &OperatorWindow::save_as);
     connect(composer_, &Composer::step_wanted, this, [this](const QKeyEvent& event) {
         if (const auto step = step_of(event, scene_->camera())) step_body(*step);
     });

@@ -7,6 +7,8 @@
 #include <QSettings>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "base/installed.h"
 #include "edited_file.h"
@@ -184,12 +186,20 @@ void StartPage::show_file(QListWidgetItem& item, const QString& title, const QSt
 void StartPage::search(const QString& typed) {
     const QStringList words = typed.split(' ', Qt::SkipEmptyParts);
     if (words.isEmpty()) return shown_->setCurrentWidget(tabs_);
+    // those whose names contain the words come first
+    std::vector<QListWidgetItem*> items;
+    while (found_->count() > 0) items.push_back(found_->takeItem(0));
+    const auto rank = [&](const QListWidgetItem* item) {
+        const QString name = item->data(TileRole::name).toString();
+        return std::pair(!contains_all(name, words), item->data(TileRole::place).toInt());
+    };
+    std::ranges::sort(items, {}, rank);
     int first = -1;
-    for (int i = 0; i < found_->count(); ++i) {
-        const QListWidgetItem& item = *found_->item(i);
-        const bool fits = contains_all(item.text() + item.data(TileRole::head).toString(), words);
-        found_->setRowHidden(i, !fits);
-        if (fits && first < 0) first = i;
+    for (QListWidgetItem* item : items) {
+        const bool fits = contains_all(item->text() + item->data(TileRole::head).toString(), words);
+        found_->addItem(item);
+        item->setHidden(!fits);
+        if (fits && first < 0) first = found_->row(item);
     }
     none_found_->setText(tr("No scene or experiment here contains \"%1\".").arg(typed.trimmed()));
     if (first < 0) return shown_->setCurrentWidget(none_found_);
@@ -239,6 +249,7 @@ void StartPage::fill() {
     QStringList all = first + recent + experiments + scenes;
     all.removeDuplicates();
     add(found_, all);
+    for (int i = 0; i < found_->count(); ++i) found_->item(i)->setData(TileRole::place, i);
     shelf_.read(all);
     tabs_->currentWidget()->setFocus();
 }

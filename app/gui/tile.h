@@ -9,7 +9,8 @@ namespace dihaptic::gui {
 
 /// What an item of the page's lists holds, besides its text, which screen readers read.
 struct TileRole {
-    enum { file = Qt::UserRole, name, line, length, head };
+    /// `place`: the tile's number in an unsorted list
+    enum { file = Qt::UserRole, name, line, length, head, place };
 };
 
 /// Size of a tile's picture.

@@ -107,6 +107,19 @@ class Drafts(Window):
         self.wait("the text", lambda: self.scene_text() == "# mine " + SCENE)
         self.quit()
 
+    def test_a_text_that_conflicts_with_another_program_is_saved_under_another_name(self):
+        self.open()
+        self.edit()
+        pathlib.Path(self.scene).write_text(SCENE + "# theirs\n")
+        time.sleep(1)
+        self.key("ctrl+s")
+        self.answer("^Overwrite", "alt+a")
+        mine = pathlib.Path(self.folder.name, "mine.yaml")
+        self.answer_with_path("^Save as", str(mine))
+        self.wait("the text", lambda: mine.exists() and mine.read_text() == "# mine " + SCENE)
+        self.assertEqual(self.scene_text(), SCENE + "# theirs\n")
+        self.quit()
+
     @soak.alone
     def test_a_file_that_is_gone_keeps_its_text(self):
         self.open()

@@ -156,6 +156,17 @@ class Window(unittest.TestCase):
         self.xdotool("windowfocus", self.name)
         time.sleep(0.3)
 
+    def answer_with_path(self, title, path):
+        """Waits for a dialog that asks for a file or a folder, and types it."""
+        dialog = self.wait(title, lambda: self.dialogs(title))[-1]
+        self.xdotool("windowfocus", dialog)
+        time.sleep(0.5)
+        self.key("ctrl+a")
+        self.type(path)
+        self.key("Return")
+        self.wait("the dialog's end", lambda: not self.dialogs(title))
+        self.xdotool("windowfocus", self.name)
+
     def xdotool(self, *words):
         return subprocess.run(["xdotool", *words], env=self.environment, capture_output=True, text=True,
                               timeout=patient(60)).stdout

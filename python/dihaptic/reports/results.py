@@ -42,8 +42,8 @@ def warnings_of(data: Data, told: dict[str, Any]) -> list[str]:
     out = []
     if told.get("not_measured"):
         out.append(
-            f"Dihaptic does not yet measure the learning of these perturbations: {told['not_measured']}. Figures of "
-            "trials under them are empty. The hand's movement is in trials.csv, and in full in session.nwb."
+            f"Dihaptic does not yet measure the learning of these perturbations: {told['not_measured']}. Their "
+            "trials lack a compensation. The hand's movement is in trials.csv, and in full in session.nwb."
         )
     out += limits_of(data)
     if (several := len(set(data.laboratories.values()))) > 1:
