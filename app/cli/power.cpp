@@ -23,6 +23,7 @@ struct PowerOptions {
     std::optional<double> smallest_effect;
     double bayes_factor = 10;
     bool sequential = false;
+    std::string alternative = "two-sided";
     std::string population;
     int laboratories = 0;
     int seed = 1;
@@ -44,6 +45,7 @@ std::vector<std::string> words_of(const PowerOptions& o) {
                                  fmt::format("--seed={}", o.seed),
                                  fmt::format("--jobs={}", o.jobs),
                                  "--test=" + o.test,
+                                 "--alternative=" + o.alternative,
                                  "--population=" + o.population,
                                  "--out=" + o.out,
                                  "--n"};
@@ -78,7 +80,11 @@ void add_options_of_test(CLI::App& command, PowerOptions& options) {
     command.add_option(
         "--test", options.test,
         "t, wilcoxon, bayes or, for two groups, welch; default: t, or welch for two groups");
-    command.add_option("--alpha", options.alpha, "significance level of the two-sided test")
+    command.add_option("--alpha", options.alpha, "significance level of the test")
+        ->capture_default_str();
+    command
+        .add_option("--alternative", options.alternative,
+                    "greater or less, for a one-sided test of effects above or below zero")
         ->capture_default_str();
     command
         .add_option("--bayes-factor", options.bayes_factor,

@@ -21,6 +21,7 @@ from dihaptic import figures  # noqa: E402
 from dihaptic.power_analysis.draws import find_effect, look_repeatedly, smallest_size  # noqa: E402
 from dihaptic.power_analysis.effect import Effect  # noqa: E402
 from dihaptic.power_analysis.evidence import bayes_factor, levels_of_factor, levels_of_looks  # noqa: E402
+from dihaptic.power_analysis.page import warnings_of  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "test"))
 import needs  # noqa: E402
@@ -73,6 +74,31 @@ class Draws(unittest.TestCase):
             with self.subTest(d=d, n=n):
                 self.assert_power(find_effect([NORMAL + d], [n], 4000, "t", 0.05, 11), next(powers))
                 self.assert_power(find_effect([NORMAL + d, NORMAL], [n, n], 4000, "t", 0.05, 11), next(powers))
+
+    def test_one_sided_tests_agree_with_power_t_test_of_r(self):
+        needs.for_this_test("Rscript", "r-base-core")
+        designs = [(0.3, 20), (0.8, 8), (1.5, 5)]
+        calls = [f'cat(power.t.test(n={n}, delta={d}, sd=1, type="{kind}", alternative="one.sided")$power, "\\n")'
+                 for d, n in designs for kind in ("one.sample", "two.sample")]  # fmt: skip
+        said = subprocess.run(["Rscript", "-e", "; ".join(calls)], capture_output=True, text=True, check=True).stdout
+        powers = iter(map(float, said.split()))
+        for d, n in designs:
+            for pool, sizes in (([NORMAL + d], [n]), ([NORMAL + d, NORMAL], [n, n])):
+                with self.subTest(d=d, n=n, groups=len(sizes)):
+                    found = find_effect(pool, sizes, 4000, "t", 0.05, 11, alternative="greater")
+                    self.assert_power(found, next(powers))
+                    self.assertEqual(found.wrong_sign, 0)
+                    # the interval is that with 5 % outside on each side
+                    self.assertEqual(found.half_width, find_effect(pool, sizes, 4000, "t", 0.1, 11).half_width)
+
+    def test_one_sided_tests_hold_their_level_and_find_nothing_on_the_other_side(self):
+        for test, pool, sizes in (("t", [NORMAL], [15]), ("welch", [NORMAL, NORMAL], [15, 15]), ("wilcoxon", [NORMAL], [15]),
+                                  ("wilcoxon", [NORMAL, NORMAL], [15, 15])):  # fmt: skip
+            with self.subTest(test, groups=len(sizes)):
+                found = find_effect(pool, sizes, 4000, test, 0.05, 3, alternative="less")
+                self.assertTrue(0.035 < found.power < 0.062, found)
+                other = find_effect([pool[0] + 1, *pool[1:]], sizes, 1000, test, 0.05, 3, alternative="less")
+                self.assertLess(other.power, 0.002)
 
     def test_welch_is_close_to_it_with_equal_spreads_and_holds_its_level_without(self):
         found = find_effect([NORMAL + 0.8, NORMAL], [24, 24], 4000, "welch", 0.05, 1)
@@ -324,6 +350,24 @@ class Pools(unittest.TestCase):
         self.refused("nobody is added", lambda: dh.power(self.pool, DIFFERENCE, [8, 9], attrition=0.5, sequential=True))
         for factor in (1, 0, -3, float("nan"), float("inf")):
             self.refused("must be above 1", lambda factor=factor: dh.power(self.pool, DIFFERENCE, bayes_factor=factor))
+
+    def test_a_test_has_one_side_where_that_was_decided_before(self):
+        options = {"draws": 400, "smallest_effect": -0.02}
+        effect = "mean(preload_s) - 0.09"
+        both, less = (dh.power(self.pool, effect, [6, 10, 14], alternative=one, sequential=True, **options)
+                      for one in ("two-sided", "less"))  # fmt: skip
+        self.assertTrue((less.table.power > both.table.power).all())
+        # each look spends on one side what two sides share at twice the level
+        twice = dh.power(self.pool, effect, [6, 10, 14], alpha=0.1, sequential=True, **options)
+        np.testing.assert_allclose(less.looks.level, twice.looks.level / 2)
+        normal = replace(less, sides=[pd.Series(5 + 2 * NORMAL)], n=[20, 30, 40], draws=4000, _known={})
+        self.assertAlmostEqual(normal.looks.false_alarm.iloc[-1], 0.05, delta=0.012)
+        self.assertIn("a t test (one-sided, for an effect below zero, alpha = 0.05)", less.in_words())
+        wrong = dh.power(self.pool, effect, [6, 10], alternative="greater", **options)
+        self.assertLess(wrong.table.power.max(), 0.02)
+        self.assertTrue(any("looks for an effect above zero, and the one that is sought is -0.02" in text for text in warnings_of(wrong)))
+        self.refused("There are two-sided, greater, less", lambda: dh.power(self.pool, effect, alternative="larger"))
+        self.refused("has no side", lambda: dh.power(self.pool, effect, test="bayes", alternative="less"))
 
     def mean_preload(self):
         return Effect("mean(preload_s)").sides(self.data)[0].mean()

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import error
+from ..errors import NotThere, error
 from ..program import call
 from ..rehearsing import rehearse
 from ..study import is_study
@@ -52,6 +52,7 @@ def power(
     smallest_effect: float | None = None,
     bayes_factor: float = 10,
     sequential: bool = False,
+    alternative: str = "two-sided",
     population: str | Path = "",
     laboratories: int = 0,
     seed: int = 1,
@@ -67,7 +68,8 @@ def power(
     people recruited in each group; the second group has `ratio` times as many. The share `attrition` of them is lost before
     the analysis. `smallest_effect` is the smallest effect of interest, in the unit of the effect: the samples then have this
     effect on average, and people's scatter as simulated. `test`: "t" or "wilcoxon" for one value of each person; "welch", "t"
-    or "wilcoxon" (rank sum) for groups; all are two-sided, at the level `alpha`. "bayes" finds the effect where the Bayes factor
+    or "wilcoxon" (rank sum) for groups; at the level `alpha`, for an effect of either sign or, if `alternative` is "greater" or
+    "less", for one above or below zero alone. "bayes" finds the effect where the Bayes factor
     of the t test exceeds `bayes_factor`. A `sequential` study is tested after each `n`, and ends at the first test that finds the
     effect, at levels that keep `alpha` (or whose Bayes factor is below 1 / `bayes_factor`): see `looks` of the result. `draws`
     samples are made for each n. People who come from `laboratories` show the power in a median one, and in one of the tenth
@@ -80,7 +82,7 @@ def power(
     [[6.0, 1.0], [8.0, 1.0]]
     """
     # these need matplotlib and SciPy, and take long to import
-    from .draws import test_named
+    from .draws import ALTERNATIVES, test_named
     from .effect import Effect
     from .result import Power
 
@@ -97,6 +99,10 @@ def power(
         remedy = "Give the smallest effect of interest, in the unit of the effect, with its sign."
         raise error("must be a number other than zero", remedy, key="smallest_effect")
     name, _ = test_named(test, asked.is_between)
+    if alternative not in ALTERNATIVES:
+        raise NotThere(alternative, "is no alternative", list(ALTERNATIVES), f"There are {', '.join(ALTERNATIVES)}.")
+    if name == "bayes" and alternative != "two-sided":
+        raise error("has no side with the test bayes", "Leave it out, or use the test t.", key="alternative")
     folder = Path(path)
     if is_study(folder):
         remedy = f"Rehearse it ({command_of('rehearse', folder)}), then name the folder of its rehearsal."
@@ -126,8 +132,9 @@ def power(
         if side.std() <= 1e-9 * abs(side.mean()):
             raise error("is the same for all people, so that it needs no test", "Name a column that differs.", key=effect)
     result = Power(
-        data, asked, sides, list(n), draws, name, alpha, ratio, attrition, seed, smallest_effect, bayes_factor, sequential
-    )
+        data, asked, sides, list(n), draws, name, alpha, ratio, attrition, seed, smallest_effect, bayes_factor, sequential,
+        alternative,
+    )  # fmt: skip
     if not 1e-6 < abs(result.standardised) < 1e6 and smallest_effect is not None:
         what = f"is {result.standardised:.2g} standard deviations of people"
         raise error(what, "Give it in the unit of the effect.", key="smallest_effect")

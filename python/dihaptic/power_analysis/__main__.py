@@ -25,6 +25,7 @@ def main(words: list[str]) -> int:
     for name, share in (("alpha", 0.05), ("ratio", 1.0), ("attrition", 0.0), ("bayes-factor", 10.0)):
         parser.add_argument(f"--{name}", type=float, default=share)
     parser.add_argument("--smallest-effect", type=float)
+    parser.add_argument("--alternative", default="two-sided")
     for name in ("test", "population", "out"):
         parser.add_argument(f"--{name}", default="")
     asked = parser.parse_args(words)
@@ -41,10 +42,11 @@ def main(words: list[str]) -> int:
                 asked.path, asked.effect, asked.n, people=asked.people, draws=asked.draws, test=asked.test, alpha=asked.alpha,
                 ratio=asked.ratio, attrition=asked.attrition, smallest_effect=asked.smallest_effect, population=asked.population,
                 laboratories=asked.laboratories, seed=asked.seed, jobs=asked.jobs, out=out, bayes_factor=asked.bayes_factor,
-                sequential=asked.sequential,
+                sequential=asked.sequential, alternative=asked.alternative,
             )  # fmt: skip
             of = "" if asked.smallest_effect is None else f" of {asked.smallest_effect:g}".replace("-", "minus ")
             of += f" by {asked.test}" * bool(asked.test) + " sequential" * asked.sequential
+            of += f" {asked.alternative}" * (asked.alternative != "two-sided")
             page = result.save(out / _in_a_name(asked.effect + of))
     except KeyboardInterrupt:
         print("interrupted: the people who have finished are kept, and the same command continues", file=sys.stderr)

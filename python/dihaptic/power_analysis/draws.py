@@ -43,35 +43,38 @@ class Look:
     exaggeration: float  #: type M error of those that find it here; NaN: there are none
 
 
-def _within_t(x: Array, _: Array | None) -> Array:
-    return np.asarray(stats.ttest_1samp(x, 0, axis=0).pvalue)
+def _within_t(x: Array, _: Array | None, alternative: str) -> Array:
+    return np.asarray(stats.ttest_1samp(x, 0, axis=0, alternative=alternative).pvalue)
 
 
-def _within_ranks(x: Array, _: Array | None) -> Array:
-    return np.asarray(stats.wilcoxon(x, axis=0, zero_method="zsplit").pvalue)
+def _within_ranks(x: Array, _: Array | None, alternative: str) -> Array:
+    return np.asarray(stats.wilcoxon(x, axis=0, zero_method="zsplit", alternative=alternative).pvalue)
 
 
-def _between_t(x: Array, y: Array | None) -> Array:
-    return np.asarray(stats.ttest_ind(x, y, axis=0).pvalue)
+def _between_t(x: Array, y: Array | None, alternative: str) -> Array:
+    return np.asarray(stats.ttest_ind(x, y, axis=0, alternative=alternative).pvalue)
 
 
-def _between_welch(x: Array, y: Array | None) -> Array:
-    return np.asarray(stats.ttest_ind(x, y, axis=0, equal_var=False).pvalue)
+def _between_welch(x: Array, y: Array | None, alternative: str) -> Array:
+    return np.asarray(stats.ttest_ind(x, y, axis=0, equal_var=False, alternative=alternative).pvalue)
 
 
-def _between_ranks(x: Array, y: Array | None) -> Array:
-    return np.asarray(stats.mannwhitneyu(x, y, axis=0, method="asymptotic").pvalue)
+def _between_ranks(x: Array, y: Array | None, alternative: str) -> Array:
+    return np.asarray(stats.mannwhitneyu(x, y, axis=0, method="asymptotic", alternative=alternative).pvalue)
 
 
+Test = Callable[[Array, Any, str], Array]
+#: What a test may look for: any effect, or one above or below zero.
+ALTERNATIVES = ("two-sided", "greater", "less")
 #: Tests by name, for a value of each person that is compared with zero, and for two groups of people. A Bayes factor is that of
 #: a t test, whose p value tells it (evidence.levels_of_factor).
-WITHIN: dict[str, Callable[[Array, Any], Array]] = {"t": _within_t, "wilcoxon": _within_ranks, "bayes": _within_t}
-BETWEEN: dict[str, Callable[[Array, Any], Array]] = {
+WITHIN: dict[str, Test] = {"t": _within_t, "wilcoxon": _within_ranks, "bayes": _within_t}
+BETWEEN: dict[str, Test] = {
     "welch": _between_welch, "t": _between_t, "wilcoxon": _between_ranks, "bayes": _between_t,
 }  # fmt: skip
 
 
-def test_named(name: str, between: bool) -> tuple[str, Callable[[Array, Any], Array]]:
+def test_named(name: str, between: bool) -> tuple[str, Test]:
     """A test and its name; "" selects the usual one: t within people, and Welch's between groups. Raises NotThere."""
     known = BETWEEN if between else WITHIN
     name = name or next(iter(known))
@@ -83,18 +86,19 @@ def test_named(name: str, between: bool) -> tuple[str, Callable[[Array, Any], Ar
 
 def find_effect(
     pool: list[Array], sizes: list[int], draws: int, test: str, alpha: float, seed: int, spread: float = 1,
-    levels: tuple[float, float] | None = None,
+    levels: tuple[float, float] | None = None, alternative: str = "two-sided",
 ) -> Found:  # fmt: skip
-    """Draws samples with replacement from a pool, and tests each of them (two-sided).
+    """Draws samples with replacement from a pool, and tests each of them.
 
     `pool` has the values of all people, or of those of two groups; `sizes` are the numbers of people in a sample, one
     for each. `spread` multiplies the deviations of people from the mean of their group. `levels` are the p value below which
-    a sample finds the effect, and that above which it shows that there is none; without them, `alpha` is the first. The same
-    seed gives the same samples, and a larger sample contains the people of a smaller one, so that curves over n are smooth.
+    a sample finds the effect, and that above which it shows that there is none; without them, `alpha` is the first.
+    `alternative` is one of ALTERNATIVES. The same seed gives the same samples, and a larger sample contains the people of a
+    smaller one, so that curves over n are smooth.
     """
     pool = [values.mean() + spread * (values - values.mean()) for values in pool]
     true = pool[0].mean() - (pool[1].mean() if len(pool) == 2 else 0)
-    p, estimates, halves = _test_samples(pool, sizes, draws, test, alpha, seed)
+    p, estimates, halves = _test_samples(pool, sizes, draws, test, alpha, seed, alternative)
     below, above = levels or (alpha, np.inf)
     is_found = p < below  # excludes samples without a p
     found = estimates[is_found]
@@ -113,8 +117,9 @@ def find_effect(
 
 
 def look_repeatedly(
-    pool: list[Array], sizes: list[list[int]], draws: int, test: str, levels: list[tuple[float, float]], seed: int
-) -> list[Look]:
+    pool: list[Array], sizes: list[list[int]], draws: int, test: str, levels: list[tuple[float, float]], seed: int,
+    alternative: str = "two-sided",
+) -> list[Look]:  # fmt: skip
     """Draws samples that grow to these sizes, from the smallest to the largest, and tests each at every size.
 
     A sample ends at the first test whose p value is below the first of its `levels`, which finds the effect, or above the
@@ -124,7 +129,7 @@ def look_repeatedly(
     goes_on = np.ones(draws, dtype=bool)
     looks, found, none = [], 0.0, 0.0
     for own, (below, above) in zip(sizes, levels):
-        p, estimates, _ = _test_samples(pool, own, draws, test, 0.05, seed)
+        p, estimates, _ = _test_samples(pool, own, draws, test, 0.05, seed, alternative)
         finds, shows_none = goes_on & (p < below), goes_on & (p > above)
         found, none = found + float(finds.mean()), none + float(shows_none.mean())
         looks.append(Look(found, none, _exaggeration(estimates[finds], true)))
@@ -137,10 +142,11 @@ def _exaggeration(estimates: Array, true: float) -> float:
 
 
 def _test_samples(
-    pool: list[Array], sizes: list[int], draws: int, test: str, alpha: float, seed: int
+    pool: list[Array], sizes: list[int], draws: int, test: str, alpha: float, seed: int, alternative: str
 ) -> tuple[Array, Array, Array]:
     """The p value of each sample (NaN for one that cannot be tested), its estimate, and half the width of its confidence
-    interval, for tests that have one."""
+    interval, for tests that have one. A one-sided test at `alpha` belongs to the interval with 2 alpha outside."""
+    outside = alpha if alternative == "two-sided" else 2 * alpha
     _, p_of = test_named(test, len(pool) == 2)
     p, estimates, halves = [], [], []
     for first in range(0, draws, _PORTION):
@@ -151,14 +157,14 @@ def _test_samples(
             samples.append(values[rng.integers(0, len(values), (n, some))])
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")  # a sample that repeats the same person cannot be tested
-            some_p = p_of(samples[0], samples[1] if len(samples) == 2 else None)
+            some_p = p_of(samples[0], samples[1] if len(samples) == 2 else None, alternative)
         if test != "wilcoxon":  # values that scatter by less than their rounding errors have no t
             scatter, size = np.sum([s.std(0) for s in samples], 0), np.sum([np.abs(s).max(0) for s in samples], 0)
             some_p = np.where(scatter > 1e-9 * size, some_p, np.nan)
         p.append(some_p)
         estimates.append(samples[0].mean(0) - (samples[1].mean(0) if len(samples) == 2 else 0))
         if test != "wilcoxon":
-            halves.append(half_width(samples, test, alpha))
+            halves.append(half_width(samples, test, outside))
     return np.concatenate(p), np.concatenate(estimates), np.concatenate(halves) if halves else np.empty(0)
 
 

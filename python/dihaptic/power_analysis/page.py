@@ -40,7 +40,7 @@ _LABORATORIES = {
     "and in how they instruct and select people, these laboratories are alike.",
 }
 _CAPTION_OF_LOOKS = (
-    "The study is tested after these numbers of people, and ends at the first test whose two-sided p value is below the level. "
+    "The study is tested after these numbers of people, and ends at the first test whose p value is below the level. "
     "Then the share of samples that end here; the share that has found the effect by now; and the share that would have found one "
     "if there were none. Exaggeration: mean size of the estimates that find the effect here, over the true one."
 )
@@ -185,6 +185,11 @@ def warnings_of(result: Power) -> list[str]:
         out.append(
             f"The pool cannot tell this effect from zero (95 % interval {low:.3g} to {high:.3g}): the power says nothing yet. "
             "Rehearse more people (--people), or give the smallest effect of interest (--smallest-effect)."
+        )
+    if (result.alternative == "greater" and result.sought < 0) or (result.alternative == "less" and result.sought > 0):
+        out.append(
+            f"The test looks for an effect {'above' if result.alternative == 'greater' else 'below'} zero, and the one that is "
+            f"sought is {result.sought:.3g}: give the other --alternative, or turn the effect around."
         )
     if result.effect.has_fixed_value and result.smallest_effect is None:
         known = "differs from that of a group of real people by up to 9 degrees"

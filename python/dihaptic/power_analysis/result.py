@@ -47,6 +47,7 @@ class Power:
     smallest_effect: float | None = None  #: the smallest effect of interest, in place of that of the pool
     bayes_factor: float = 10  #: the Bayes factor above which the test "bayes" finds the effect
     is_sequential: bool = False  #: whether `n` are looks at the data of one study
+    alternative: str = "two-sided"  #: or "greater" or "less": a test of effects above, or below, zero alone
     _known: dict[tuple[int, float], Found] = field(default_factory=dict, repr=False)
 
     def __repr__(self) -> str:
@@ -83,7 +84,8 @@ class Power:
     def _find(self, pool: list[Array], n: int, draws: int = 0, more: int = 0, spread: float = 1) -> Found:
         """The power with n people of a pool; `more` is added to the seed."""
         sizes = self.sizes(n)
-        return find_effect(pool, sizes, draws or self.draws, self.test, self.alpha, self.seed + more, spread, self._levels(sizes))
+        seed, levels = self.seed + more, self._levels(sizes)
+        return find_effect(pool, sizes, draws or self.draws, self.test, self.alpha, seed, spread, levels, self.alternative)
 
     def _levels(self, sizes: list[int]) -> tuple[float, float]:
         """The p values below which a test finds the effect, and above which it shows that there is none."""
@@ -161,7 +163,7 @@ class Power:
 
     @cached_property
     def looks(self) -> pd.DataFrame | None:
-        """A row for each look at the data of a sequential study: n; analysed; level, the two-sided p value below which the study
+        """A row for each look at the data of a sequential study: n; analysed; level, the p value below which the study
         ends with the effect, as do the shares `found` of the samples by this look, and `false_alarm` if there were none;
         for_none, the share that has ended because its Bayes factor speaks for no effect; ends, the share that ends here; and
         exaggeration, the type M error of the estimates that find the effect here. None for a study of fixed size."""
@@ -171,11 +173,14 @@ class Power:
         levels = [self._levels(each) for each in sizes]
         if self.test != "bayes":
             shares = [effective_size(each) / effective_size(sizes[-1]) for each in sizes]
-            levels = [(level, math.inf) for level in levels_of_looks(shares, self.alpha)]
+            # each side of a two-sided test spends half of its level
+            sides = 2 if self.alternative == "two-sided" else 1
+            levels = [(level * sides / 2, math.inf) for level in levels_of_looks(shares, self.alpha * 2 / sides)]
         pool = self._pool
         effect = pool[0].mean() - (pool[1].mean() if len(pool) == 2 else 0)
-        looks = look_repeatedly(pool, sizes, self.draws, self.test, levels, self.seed)
-        without = look_repeatedly([pool[0] - effect, *pool[1:]], sizes, self.draws, self.test, levels, self.seed)
+        rest = (sizes, self.draws, self.test, levels, self.seed, self.alternative)
+        looks = look_repeatedly(pool, *rest)
+        without = look_repeatedly([pool[0] - effect, *pool[1:]], *rest)
         table = pd.DataFrame({
             "n": self.n, "analysed": [sum(each) for each in sizes], "level": [level for level, _ in levels],
             "found": [look.found for look in looks], "for_none": [look.for_none for look in looks],
@@ -293,7 +298,10 @@ class Power:
                 f"above {self.bayes_factor:g}"
             )
         tests = {"t": "a t test", "welch": "Welch's t test", "wilcoxon": "Wilcoxon's test"}
-        return f"{tests[self.test]} (two-sided, alpha = {self.alpha:g})"
+        side = "two-sided"
+        if self.alternative != "two-sided":
+            side = f"one-sided, for an effect {'above' if self.alternative == 'greater' else 'below'} zero"
+        return f"{tests[self.test]} ({side}, alpha = {self.alpha:g})"
 
     def _looks_in_words(self, each: str) -> str:
         """What becomes of a study whose data are looked at while they come; "" for one of fixed size."""
