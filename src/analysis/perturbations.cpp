@@ -8,6 +8,7 @@
 #include "base/field_reader.h"
 #include "base/regular_file.h"
 #include "base/unit.h"
+#include "task/effects/factor.h"
 #include "task/plan/trials.h"
 
 namespace dihaptic::analysis {
@@ -15,11 +16,13 @@ namespace {
 
 /// The course of a perturbation within a trial, in words.
 void say_course(const task::Profile& profile, std::vector<std::string>& out) {
-    const auto ms = [](double s) { return fmt::format("{:.6g} ms", 1000 * s); };
-    if (profile.delay > 0) out.push_back("after " + ms(profile.delay));
-    if (profile.rise > 0) out.push_back("rising in " + ms(profile.rise));
+    const auto ms = [](const Formula& time) {
+        return task::in_words(time, 1e-3) + (time.computed() ? "" : " ms");
+    };
+    if (profile.delay != 0) out.push_back("after " + ms(profile.delay));
+    if (profile.rise != 0) out.push_back("rising in " + ms(profile.rise));
     if (profile.plateau) out.push_back("full for " + ms(*profile.plateau));
-    if (profile.plateau && profile.fall > 0) out.push_back("falling in " + ms(profile.fall));
+    if (profile.plateau && profile.fall != 0) out.push_back("falling in " + ms(profile.fall));
 }
 
 /// The kind of the perturbation and its size.

@@ -84,7 +84,7 @@ void check_ticks(const task::Task& task, double tick, Diagnostics& diagnostics) 
         if (!spec.profile) continue;
         ticks.check(spec.profile->place, "delay", spec.profile->delay);
         ticks.check(spec.profile->place, "rise", spec.profile->rise);
-        ticks.check(spec.profile->place, "plateau", spec.profile->plateau.value_or(0));
+        ticks.check(spec.profile->place, "plateau", spec.profile->plateau.value_or(Formula(0)));
         ticks.check(spec.profile->place, "fall", spec.profile->fall);
     }
 }
@@ -108,12 +108,13 @@ void check_delays(const task::Task& task, Diagnostics& diagnostics) {
     double all = 0;
     for (const State& state : task.states) all += longest(state).value_or(kInfinity);
     for (const task::PerturbationSpec& spec : task.perturbations) {
-        if (!spec.profile || spec.profile->delay < all) continue;
+        if (!spec.profile || spec.profile->delay.computed() || spec.profile->delay.value < all)
+            continue;
         diagnostics.warning(
             spec.profile->place, "delay",
             fmt::format("is {:g} s, but all states together last {:g} s at most, so that {} never "
                         "acts",
-                        spec.profile->delay, all, spec.name),
+                        spec.profile->delay.value, all, spec.name),
             "Give a shorter delay; it counts from entry into the first of its states.");
     }
 }

@@ -8,8 +8,9 @@ std::string in_words(const Formula& number, double unit) {
     return number.computed() ? number.text : fmt::format("{:.6g}", number.value / unit);
 }
 
-std::string in_words(const FormulaVec3& v) {
-    return fmt::format("({}, {}, {})", in_words(v[0]), in_words(v[1]), in_words(v[2]));
+std::string in_words(const FormulaVec3& v, double unit) {
+    return fmt::format("({}, {}, {})", in_words(v[0], unit), in_words(v[1], unit),
+                       in_words(v[2], unit));
 }
 
 void say_factor(const std::string& what, const Formula& factor, std::vector<std::string>& out) {

@@ -21,7 +21,7 @@ inline Vec3 part_of(double share, const Vec3& factors) noexcept {
 
 /// The number in the given unit, or the text of its formula.
 std::string in_words(const Formula& number, double unit = 1);
-std::string in_words(const FormulaVec3& v);
+std::string in_words(const FormulaVec3& v, double unit = 1);
 /// Appends "2 times the WHAT" or, for a formula, "WHAT times (FORMULA)" to `out` unless the factor
 /// is 1.
 void say_factor(const std::string& what, const Formula& factor, std::vector<std::string>& out);

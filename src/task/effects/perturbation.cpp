@@ -13,7 +13,7 @@ Perturbation::Perturbation(const PerturbationSpec& spec, const Names& names,
         any = true;
     });
     profile_ = spec.profile;
-    if (profile_ && profile_->fall > 0 && !profile_->plateau) {
+    if (profile_ && profile_->fall != 0 && !profile_->plateau) {
         diagnostics.error(profile_->place, "fall", "has no effect without a plateau",
                           "Add e.g. plateau_ms: 100, the time between rise and fall.");
     }

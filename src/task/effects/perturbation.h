@@ -109,9 +109,10 @@ class Perturbation {
     /// The body's properties at share 1; unset if the perturbation changes no body.
     std::optional<frame::PropertiesFrame> properties() const;
 
-    /// Visits the formulas of the perturbation's effects.
+    /// Visits the formulas of the perturbation's profile and effects.
     template <class Visitor>
     void visit(Visitor& v) {
+        if (profile_) profile_->visit(v);
         each_effect(*this, [&](auto& effect) { effect.visit(v); });
     }
 

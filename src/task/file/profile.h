@@ -21,11 +21,11 @@ constexpr auto enum_names(ProfileShape) {
 /// Factor on a perturbation's share as a function of the time since its onset. The default is 1 at
 /// all times.
 struct Profile {
-    double delay = 0;  ///< time before the rise [s]
-    double rise = 0;   ///< [s]
+    Formula delay = 0;  ///< time before the rise [s]
+    Formula rise = 0;   ///< [s]
     /// Duration of the plateau; if unset, the share does not fall [s].
-    std::optional<double> plateau;
-    double fall = 0;  ///< [s]
+    std::optional<Formula> plateau;
+    Formula fall = 0;  ///< [s]
     ProfileShape shape = ProfileShape::linear;
     Place place;
 
@@ -46,13 +46,13 @@ struct Profile {
     double share(double t) const noexcept {
         // tolerance for rounding errors, since times are sums of ticks
         constexpr double kRounding = 1e-9;
-        t += kRounding - delay;
+        t += kRounding - delay.value;
         if (t < 0) return 0;
-        if (t < rise) return risen(t / rise);
+        if (t < rise.value) return risen(t / rise.value);
         if (!plateau) return 1;
-        t -= rise + *plateau;
+        t -= rise.value + plateau->value;
         if (t < 0) return 1;
-        return t < fall ? 1 - risen(t / fall) : 0;
+        return t < fall.value ? 1 - risen(t / fall.value) : 0;
     }
 
   private:

@@ -218,7 +218,7 @@ class MeasureChecker {
                                     ? movement_.during.front()
                                     : movement_.go;
         for (const PerturbationSpec& spec : task_.perturbations) {
-            if (!begins_in(spec, go) || (spec.profile && spec.profile->delay > 0)) continue;
+            if (!begins_in(spec, go) || (spec.profile && spec.profile->delay != 0)) continue;
             for (const LoadSpec& load : spec.all_loads()) {
                 if (load.kind != LoadKind::constant || !acts_on(load, movement_)) continue;
                 diagnostics_.warning(

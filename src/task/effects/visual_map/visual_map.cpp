@@ -22,7 +22,7 @@ uint32_t moves_of(const VisualSpec& visual, Diagnostics& diagnostics) {
 }
 
 bool displaces(const VisualSpec& visual) {
-    return visual.delay != 0 || !visual.noise.isZero(0);
+    return visual.delay != 0 || visual.noise != FormulaVec3{};
 }
 
 bool shifts(const VisualSpec& visual) {
@@ -82,7 +82,7 @@ void VisualEffect::order(double share, std::span<const Vec3> regions_W, const Mo
     shown.R = Quat(Eigen::AngleAxisd(share * spec_.angle.value, axis_));
     shown.size = part_of(share, spec_.size.value);
     shown.delay = share * spec_.delay.value;
-    shown.noise = share * spec_.noise;
+    shown.noise = share * value(spec_.noise);
     shown.shift_W = share * value(spec_.shift);
     if (spec_.toward.index >= 0) {
         const Vec3 way = regions_W[static_cast<size_t>(spec_.toward.index)] - shown.p_WC;
@@ -103,8 +103,8 @@ void say(const VisualSpec& spec, std::vector<std::string>& out) {
     }
     say_factor("displayed size", spec.size, out);
     if (spec.delay != 0) out.push_back(fmt::format("shown {} ms late", in_words(spec.delay, 1e-3)));
-    if (!spec.noise.isZero(0))
-        out.push_back("shaken by " + in_words(as_formula(spec.noise * 1e3)) + " mm (SD)");
+    if (spec.noise != FormulaVec3{})
+        out.push_back("shaken by " + in_words(spec.noise, 1e-3) + " mm (SD)");
 }
 
 }  // namespace dihaptic::task

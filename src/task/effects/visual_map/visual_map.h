@@ -37,8 +37,8 @@ struct VisualSpec {
     Formula size = 1;     ///< ratio of the object's displayed size to its true size
     Formula delay = 0;    ///< display delay of the proxies and the object [s]
     FormulaVec3 shift{};  ///< displacement of the displayed objects in the world frame W [m]
-    Vec3 noise = Vec3::Zero();  ///< standard deviation of the noise on displayed positions along
-                                ///< the axes of W [m]
+    FormulaVec3 noise{};  ///< standard deviation of the noise on displayed positions along the
+                          ///< axes of W [m]
     Place place;
 
     template <class Visitor>
