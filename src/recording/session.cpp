@@ -150,9 +150,10 @@ SessionFolder SessionFolder::create(const std::string& parent, const std::string
     constexpr size_t kLongest = 250;  // most file systems allow 255 bytes; "_2" may be appended
     if (own.size() > kLongest) {
         throw Error(
-            "the name of the session's folder, made of date, experiment and participant, would "
-            "have in " +
-                fmt::format("{} characters; {} are allowed", own.size(), kLongest),
+            fmt::format("the name of the session's folder, made of date, experiment and "
+                        "participant, would have {} bytes, but at most {} are allowed; a letter "
+                        "beyond a to z has two or more",
+                        own.size(), kLongest),
             "Shorten --participant, or the experiment file's name.");
     }
     try {

@@ -132,17 +132,27 @@ void check_concealed(const study::StudyFile& study, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns about groups in which the orders of the conditions do not occur equally often.
-void check_balance(const study::StudyFile& study, Diagnostics& diagnostics) {
-    const int orders = study.orders();
-    for (const study::Group& group : study.groups) {
-        if (orders == 0 || group.people % orders == 0) continue;
-        diagnostics.warning(
-            group.place, "people",
-            fmt::format("is {}: the conditions have {} orders, which do not come up "
-                        "equally often",
-                        group.people, orders),
-            fmt::format("Use a multiple of {}, or accept the imbalance.", orders));
+/// Warns about a group in which orders do not occur equally often. `what`: what has these orders.
+void check_balance(const study::Group& group, const std::string& what, int orders,
+                   Diagnostics& diagnostics) {
+    if (group.people % orders == 0) return;
+    diagnostics.warning(group.place, "people",
+                        fmt::format("is {}: the {} have {} orders, which do not come up equally "
+                                    "often",
+                                    group.people, what, orders),
+                        fmt::format("Use a multiple of {}, or accept the imbalance.", orders));
+}
+
+/// Warns about orders within the experiments of a study, for each group that does them.
+void check_orders(const study::StudyFile& study, const study::SessionSpec& session,
+                  const std::string& name, const Plan& plan, Diagnostics& diagnostics) {
+    if (!plan.task) return;
+    for (const task::NumberedOrder& numbered : task::numbered_orders(plan.task->task)) {
+        for (const study::Group& group : study.groups) {
+            if (study.is_done_by(session, name, group))
+                check_balance(group, fmt::format("{} in {}", numbered.of, name), numbered.orders,
+                              diagnostics);
+        }
     }
 }
 
@@ -256,7 +266,8 @@ study::StudyFile rehearsed(study::StudyFile study) {
 study::StudyFile checked_study(const std::string& file, Diagnostics& diagnostics) {
     study::StudyFile out = study::read_study(file);
     check_concealed(out, diagnostics);
-    check_balance(out, diagnostics);
+    for (const study::Group& group : out.groups)
+        check_balance(group, "conditions", out.orders(), diagnostics);
     for (size_t i = 0; i < out.sessions.size(); ++i) {
         for (const auto& [name, experiment] : out.experiments_of(i)) {
             if (!is_there(experiment)) {
@@ -266,7 +277,7 @@ study::StudyFile checked_study(const std::string& file, Diagnostics& diagnostics
                 continue;
             }
             try {
-                plan_of(experiment);
+                check_orders(out, out.sessions[i], name, plan_of(experiment), diagnostics);
             } catch (const Error& e) {
                 diagnostics.add(e.problems());
             }

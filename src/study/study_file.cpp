@@ -244,13 +244,7 @@ int StudyFile::people() const {
 }
 
 int StudyFile::orders() const {
-    const int n = static_cast<int>(conditions.size());
-    if (n < 2) return 0;
-    if (order == task::Order::latin_square) return n % 2 == 0 ? n : 2 * n;
-    if (order != task::Order::counterbalanced) return 0;
-    int out = 1;
-    for (int i = 2; i <= n; ++i) out *= i;
-    return out;
+    return task::orders_of(static_cast<int>(conditions.size()), order);
 }
 
 const Group& StudyFile::group(const std::string& name) const {
@@ -284,17 +278,28 @@ std::string StudyFile::experiment_of(size_t index, const std::string& group, int
     return named_in(folder, experiment_name(index, group, number));
 }
 
+std::vector<std::string> StudyFile::experiments_of(const SessionSpec& session,
+                                                   const Group& group) const {
+    std::vector<std::string> out;
+    const std::vector<std::string> one{""};
+    for (const std::string& condition : uses(session, kCondition) ? conditions : one)
+        out.push_back(
+            replaced(replaced(session.experiment, kGroup, group.name), kCondition, condition));
+    return out;
+}
+
 std::map<std::string, std::string> StudyFile::experiments_of(size_t index) const {
     std::map<std::string, std::string> out;
-    const std::vector<std::string> one{""};
     for (const Group& group : groups) {
-        for (const std::string& condition : uses(sessions[index], kCondition) ? conditions : one) {
-            const std::string name = replaced(
-                replaced(sessions[index].experiment, kGroup, group.name), kCondition, condition);
+        for (const std::string& name : experiments_of(sessions[index], group))
             out[name] = named_in(folder, name);
-        }
     }
     return out;
+}
+
+bool StudyFile::is_done_by(const SessionSpec& session, const std::string& name,
+                           const Group& group) const {
+    return std::ranges::count(experiments_of(session, group), name) > 0;
 }
 
 std::string StudyFile::code_of(const std::string& name) const {

@@ -199,7 +199,7 @@ struct StudyFile {
 
     int people() const;  ///< target number of participants
     const Group& group(const std::string& name) const;
-    /// Returns the number of orders of the conditions that should occur equally often; 0 if the
+    /// Returns the number of orders of the conditions that should occur equally often; 1 if the
     /// order does not depend on the participant's number.
     int orders() const;
     /// Returns the conditions in the order in which a participant has them. `number`: number in the
@@ -210,6 +210,9 @@ struct StudyFile {
     /// Returns all experiments that a participant may have in session `index`. Maps the name of
     /// each experiment (as in the study file, with placeholders replaced) to its path.
     std::map<std::string, std::string> experiments_of(size_t index) const;
+    std::vector<std::string> experiments_of(const SessionSpec& session, const Group& group) const;
+    /// Whether people of a group have the experiment of this name, as in experiments_of().
+    bool is_done_by(const SessionSpec& session, const std::string& name, const Group& group) const;
     /// Returns the name of the experiment in session `index`, as in experiments_of().
     std::string experiment_name(size_t index, const std::string& group, int number) const;
     /// Returns the name of the session's condition; empty if there are no conditions.

@@ -44,6 +44,15 @@ class Power(unittest.TestCase):
         self.assertEqual(find_effect([NORMAL], [4], 1000, "t", 0.05, 1).untested, 0)
         self.assertTrue((self.power("mean(static_grip_N)", "--n", "8")[1].untested == 0).all())
 
+    def test_effects_that_differ_in_a_sign_or_in_brackets_have_their_own_folders(self):
+        out = self.enterContext(tempfile.TemporaryDirectory())
+        effects = ["mean(static_grip_N)", "-mean(static_grip_N)", "(mean(static_grip_N) - mean(peak_grip_N)) - mean(preload_s)",
+                   "mean(static_grip_N) - (mean(peak_grip_N) - mean(preload_s))"]  # fmt: skip
+        for effect in effects:
+            said = dihaptic("power", self.pool, f"--effect={effect}", "--n", "5", "--draws", "100", "--out", out)
+            self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertEqual(len(os.listdir(out)), len(effects))
+
     def test_a_huge_effect_needs_the_fewest_people(self):
         sizes = smallest_size(lambda n: find_effect([NORMAL + 7, NORMAL], [n, n], 500, "t", 0.05, 1), 0.8, 1000)
         self.assertEqual(sizes, (3, 3, 3))

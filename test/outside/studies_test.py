@@ -86,6 +86,27 @@ class Groups(unittest.TestCase):
         self.assertEqual((said.returncode, sorted(os.listdir(folder))), (2, ["study.yaml"]))
         self.assertIn("is a study, whose people are not rehearsed here. Rehearse it (dihaptic rehearse", said.stderr)
 
+    def test_orders_that_do_not_come_up_equally_often_are_told(self):
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        scene = os.path.abspath("scenes/reach-in-space.yaml")
+        for people, order, repeats, orders in ((12, "counterbalanced", 1, 24), (48, "counterbalanced", 1, 0), (6, "latin_square", 1, 4),
+                                               (6, "latin_square", 4, 0), (7, "shuffled", 1, 0)):  # fmt: skip
+            with self.subTest(people=people, order=order, repeats=repeats):
+                (folder / "four.yaml").write_text(f"""title: Four
+scene: {scene}
+task:
+  conditions: [{{ name: A }}, {{ name: B }}, {{ name: C }}, {{ name: D }}]
+  states: [{{ name: go, exits: [{{ when: time, after_s: 0.05, outcome: done }}] }}]
+  blocks: [{{ name: all, order: {order}, repeats: {repeats} }}]
+""")
+                (folder / "study.yaml").write_text(
+                    f"title: S\ngroups: [{{ name: a, people: {people} }}]\nsessions: [{{ name: only, experiment: four.yaml }}]\n")
+                said = dihaptic("check", str(folder / "study.yaml"))
+                self.assertEqual(said.returncode, 0, said.stdout)
+                told = f"is {people}: the conditions of block all in four.yaml have {orders} orders"
+                self.assertEqual(told in said.stdout + said.stderr, orders > 0, said.stdout + said.stderr)
+                self.assertEqual("orders" in said.stdout + said.stderr, orders > 0)
+
 
 class Studies(unittest.TestCase):
     def setUp(self):

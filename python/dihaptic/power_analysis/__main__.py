@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import hashlib
 import os
 import re
 import sys
@@ -68,11 +69,27 @@ def main(words: list[str]) -> int:
     return 0
 
 
+#: Effects that differ where their names would not: with signs, brackets or letters beyond these, or longer.
+_PLAIN = re.compile(r'[\w.]+(\([\w=, ."]*\))?( [-+*/] [\w.]+(\([\w=, ."]*\))?)*[\w .]*')
+_LONGEST = 120
+
+
 def _in_a_name(effect: str) -> str:
-    """The name of the folder for an effect, which keeps another effect from replacing its page."""
+    """The name of the folder for an effect, which keeps another effect from replacing its page.
+
+    >>> from dihaptic.power_analysis.__main__ import _in_a_name
+    >>> _in_a_name("mean(late) - mean(early)")
+    'mean-late-minus-mean-early'
+    >>> _in_a_name("-mean(late)")
+    'mean-late-ec76'
+    """
+    name = effect
     for sign, word in ((" - ", " minus "), (" + ", " plus "), (" * ", " times "), (" / ", " over ")):
-        effect = effect.replace(sign, word)
-    return re.sub(r"\W+", "-", effect).strip("-")[:120]
+        name = name.replace(sign, word)
+    name = re.sub(r"\W+", "-", name).strip("-")
+    if _PLAIN.fullmatch(effect) and len(name) <= _LONGEST:
+        return name
+    return f"{name[:_LONGEST]}-{hashlib.sha256(effect.encode()).hexdigest()[:4]}"
 
 
 if __name__ == "__main__":

@@ -302,6 +302,29 @@ std::vector<int> ordered(int n, Order order, int number, Random& random) {
     return out;
 }
 
+int orders_of(int n, Order order) {
+    int out = 1;
+    if (order == Order::latin_square && n > 1) out = n % 2 == 0 ? n : 2 * n;
+    if (order == Order::counterbalanced) {
+        for (int i = 2; i <= n; ++i) out *= i;
+    }
+    return out;
+}
+
+std::vector<NumberedOrder> numbered_orders(const Task& task) {
+    std::vector<NumberedOrder> out;
+    const int rounds = orders_of(static_cast<int>(task.rounds.size()), task.round_order);
+    if (rounds > 1) out.push_back({"rounds", rounds});
+    for (const Block& block : task.blocks) {
+        const int n = static_cast<int>(conditions_of(task, block).size());
+        const int orders = orders_of(n, block.order);
+        // in repeats, each participant goes on with the next row of a Latin square
+        if (orders > 1 && !(block.order == Order::latin_square && block.repeats % orders == 0))
+            out.push_back({fmt::format("conditions of block {}", block.name), orders});
+    }
+    return out;
+}
+
 int participant_number(const std::string& id) {
     size_t digits = 0;
     while (digits < id.size() && digits < 8 &&

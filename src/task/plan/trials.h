@@ -2,7 +2,9 @@
 // the seed, and the queue to which trials that must be repeated return.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/random.h"
 #include "base/table.h"
@@ -34,6 +36,16 @@ bool names_perturbation(const std::string& cell, const std::string& name);
 /// often (two squares for odd n; Williams 1949). Counterbalanced: permutation `number` of all n!
 /// permutations in lexicographic order.
 std::vector<int> ordered(int n, Order order, int number, Random& random);
+
+/// After how many participants each order of n items has come up equally often; 1 if the order does
+/// not depend on the participant's number.
+int orders_of(int n, Order order);
+/// Orders of conditions within a block, or of rounds, that depend on the participant's number.
+struct NumberedOrder {
+    std::string of;  ///< what is ordered: the rounds, or the conditions of a block
+    int orders = 1;  ///< after how many participants each of them has come up equally often
+};
+std::vector<NumberedOrder> numbered_orders(const Task& task);
 
 /// Returns the number at the end of a participant's identifier, e.g. 7 for S07, or -1 if there is
 /// none.
