@@ -24,6 +24,9 @@ struct Fitted {
         nlohmann::ordered_json out;
         for (const analysis::Parameter& p : parameters) out[p.name] = p.value;
         for (const auto& [key, value] : others) out[key] = value;
+        for (const analysis::Parameter& p : parameters)
+            out["intervals_95"][p.name] = {p.interval.low, p.interval.high};
+        out["note"] = note;
         return out.dump(2) + "\n";
     }
     std::string text() const {
@@ -31,7 +34,7 @@ struct Fitted {
         for (const analysis::Parameter& p : parameters) {
             std::string name = p.name;
             std::replace(name.begin(), name.end(), '_', ' ');
-            out += fmt::format("{:16} {:8.5f}   95 %: {:.5f} to {:.5f}\n", name, p.value,
+            out += fmt::format("{:16} {:10.6g}   95 %: {:.6g} to {:.6g}\n", name, p.value,
                                p.interval.low, p.interval.high);
         }
         return out + note + "\n";
@@ -162,11 +165,13 @@ Fitted fit_psychometric(const PsychometricOptions& options) {
     const auto ends = analysis::profile_intervals(counts, fit, options.settings);
     int n = 0;
     for (const analysis::LevelCount& level : counts) n += level.trials;
+    const std::string doubt = analysis::why_no_threshold(counts, fit);
     return {
         analysis::parameters(fit, ends),
         {{"guess", fit.function.guess}, {"deviance", fit.deviance}, {"n", n}},
-        fmt::format("{} answers at {} levels; deviance {:.4g}{}", n, counts.size(), fit.deviance,
-                    fit.shape_unknown ? "; the answers do not determine the shape" : "")};
+        fmt::format("{} answers at {} levels; deviance {:.4g}{}{}", n, counts.size(), fit.deviance,
+                    fit.shape_unknown ? "; the answers do not determine the shape" : "",
+                    doubt.empty() ? "" : "; the threshold is " + doubt)};
 }
 
 /// Adds a command to `fit` that fits a curve to adaptation trials.

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "base/diagnostics.h"
 #include "base/unmeasured.h"
+#include "task/procedures/staircase.h"
 
 namespace dihaptic::analysis {
 namespace {
@@ -29,15 +31,14 @@ std::string ThresholdTrack::what() const {
 
 std::vector<double> ThresholdTrack::reversals() const {
     std::vector<double> out;
-    if (kind != "staircase") return out;
-    int way = 0;
-    for (size_t i = 1; i < answers.size(); ++i) {
-        const double step = answers[i].level - answers[i - 1].level;
-        const int now = step > 0 ? 1 : step < 0 ? -1 : 0;
-        if (now == 0) continue;
-        if (way * now < 0) out.push_back(share(answers[i - 1].level));
-        way = now;
-    }
+    if (kind != "staircase" || answers.empty()) return out;
+    // the levels alone do not show a reversal that ends a staircase, or one at a limit
+    task::StaircaseSettings settings;
+    settings.down_after = down_after;
+    settings.trials = static_cast<int>(answers.size());
+    task::Staircase staircase(settings);
+    for (const Answer& answer : answers) staircase.answer(answer.level, answer.yes);
+    for (const double level : staircase.reversals()) out.push_back(share(level));
     const auto skipped = std::min<size_t>(out.size(), static_cast<size_t>(skipped_reversals));
     out.erase(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(skipped));
     return out;
@@ -141,8 +142,10 @@ std::vector<ThresholdTrack> threshold_tracks(const rows::TrialFile& trials,
 void list_psychophysics(const ThresholdTrack& track, const model::Psychometric& function,
                         FigureLister& row) {
     const std::vector<double> reversals = track.reversals();
-    const double sum = std::accumulate(reversals.begin(), reversals.end(), 0.0);
     const auto count = static_cast<double>(reversals.size());
+    // of an odd number, the first is left out, so that peaks and valleys have equal weight
+    const std::span<const double> even = std::span(reversals).subspan(reversals.size() % 2);
+    const double sum = std::accumulate(even.begin(), even.end(), 0.0);
     const bool kind_is_staircase = track.kind == "staircase";
     row("threshold_probability", function.probability(function.threshold), "1",
         "probability of yes at the threshold, by the fitted function");
@@ -152,8 +155,9 @@ void list_psychophysics(const ThresholdTrack& track, const model::Psychometric& 
         "the quartiles");
     row("reversals", kind_is_staircase ? count : kUnmeasured, "1",
         "number of a staircase's reversals, without the skipped ones; empty for other procedures");
-    row("mean_of_reversals", reversals.empty() ? kUnmeasured : sum / count, "1",
-        "mean level of these reversals, in the unit of threshold_share");
+    row("mean_of_reversals", even.empty() ? kUnmeasured : sum / static_cast<double>(even.size()),
+        "1",
+        "mean level of the last even number of these reversals, in the unit of threshold_share");
 }
 
 ThresholdFit fit_threshold(const ThresholdTrack& track) {
@@ -173,8 +177,8 @@ ThresholdFit fit_threshold(const ThresholdTrack& track) {
     const double t = out.fit->function.threshold;
     const double low = counts.front().level;
     const double high = counts.back().level;
-    out.outside = t < low || t > high;
-    if (out.outside) {
+    out.note = why_no_threshold(counts, *out.fit);
+    if (out.note.empty() && (t < low || t > high)) {
         out.note =
             fmt::format("outside of the levels shown, {:.3g} to {:.3g}: a guess, not a measurement",
                         track.share(low), track.share(high));

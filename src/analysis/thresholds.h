@@ -20,6 +20,7 @@ struct ThresholdTrack {
     std::string number;  ///< name of the number that the procedure chooses; empty if it chooses the
                          ///< perturbation's share
     double standard = 0;            ///< standard value of the number; NaN if there is none
+    int down_after = 1;             ///< consecutive answers of yes that lower a staircase's level
     int skipped_reversals = 0;      ///< initial reversals, which are excluded from the mean
     bool logarithmic = false;       ///< whether levels are log10 of the share or number
     std::vector<Answer> answers;    ///< answers, in order
@@ -29,7 +30,7 @@ struct ThresholdTrack {
     /// Returns the share or number for a level, in the unit that the number's name states.
     double share(double level) const;
     std::string what() const;  ///< describes the number that the procedure chooses
-    /// The levels at which the direction of a staircase changed, as shares or numbers, without the
+    /// The levels after which a staircase changed its direction, as shares or numbers, without the
     /// skipped reversals. Empty for other procedures.
     std::vector<double> reversals() const;
     /// The Weber fraction of a fitted function: the just noticeable difference divided by the
@@ -53,10 +54,9 @@ void list_psychophysics(const ThresholdTrack& track, const model::Psychometric& 
 /// The fit of a track, or the reason why there is no fit.
 struct ThresholdFit {
     std::optional<PsychometricFit> fit;
-    /// The reason why there is no fit, or a remark that the threshold lies outside the range of
-    /// levels shown; otherwise empty.
+    /// The reason why there is no fit, or why its threshold is a guess: because it lies outside the
+    /// range of levels shown, or because the answers do not rise with the level. Otherwise empty.
     std::string note;
-    bool outside = false;  ///< whether the threshold lies outside the range of levels shown
 
     /// The fitted function; if there is no fit, its parameters are NaN.
     model::Psychometric function() const;

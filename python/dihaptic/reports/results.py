@@ -255,7 +255,7 @@ def _thresholds(data: Data) -> str:
         procedure = f"{name} ({group})" if several else name
         if len(data.people) == 1:
             row = own.iloc[0]
-            if pd.notna(row["threshold"]):
+            if pd.notna(row["threshold"]) and pd.isna(row["note"]):
                 between = f" (95 % {row['threshold_95']})" if isinstance(row.get("threshold_95"), str) else ""
                 texts.append(f"{in_short(row['threshold'])}{between} in {procedure}, of {row['trials']} answers")
             continue

@@ -89,18 +89,18 @@ class Search {
         return {linear_weibull() ? std::log10(f.threshold) : f.threshold,
                 std::log(slope() ? 1 / f.shape : f.shape), f.lapse};
     }
-    /// Whether a function whose spread is at one end of the range fits as well as the best fit.
-    bool shape_unknown(const Minimum& best) const {
-        std::vector<double> x = best.x;
-        for (const double end : {ranges_[kSpread].low, ranges_[kSpread].high}) {
-            x[kSpread] = end;
-            if (free_[kSpread] && cost(x) < best.value + 0.01) return true;
-        }
-        return false;
-    }
+    /// Whether the steepest, or the flattest, function fits as well as the best one.
+    bool may_be_steep(const Minimum& best) const { return may_be(best, ranges_[kSpread].low); }
+    bool may_be_flat(const Minimum& best) const { return may_be(best, ranges_[kSpread].high); }
 
   private:
     using Free = std::array<bool, kVariables>;
+
+    bool may_be(const Minimum& best, double spread) const {
+        std::vector<double> x = best.x;
+        x[kSpread] = spread;
+        return free_[kSpread] && cost(x) < best.value + 0.01;
+    }
 
     /// Returns the best grid point for each spread, sorted from best to worst.
     std::vector<Minimum> starts(std::span<const double> places, std::span<const double> spreads,
@@ -233,7 +233,30 @@ double saturated(std::span<const LevelCount> counts) {
     return sum;
 }
 
+/// The z value of the Mann-Whitney test of the levels at which the answer was "yes" against those
+/// at which it was "no", corrected for ties; 0 if all answers are alike.
+double rise(std::span<const LevelCount> counts) {
+    double yes = 0, n = 0, ranks = 0, ties = 0;
+    for (const LevelCount& c : counts) {
+        const double m = c.trials;
+        ranks += c.yes * (n + (m + 1) / 2);
+        ties += m * m * m - m;
+        yes += c.yes;
+        n += m;
+    }
+    const double variance = yes * (n - yes) / 12 * (n + 1 - ties / (n * (n - 1)));
+    return variance > 0 ? (ranks - yes * (n + 1) / 2) / std::sqrt(variance) : 0;
+}
+
 }  // namespace
+
+std::string why_no_threshold(std::span<const LevelCount> counts, const PsychometricFit& fit) {
+    constexpr double kSure = 1.96;
+    if (rise(counts) < -kSure)
+        return "a guess, not a measurement: 'yes' becomes less likely as the level rises. Are "
+               "'yes' and 'no' exchanged?";
+    return fit.flat ? "a guess, not a measurement: 'yes' is as likely at all levels" : "";
+}
 
 std::vector<LevelCount> count(std::span<const Answer> answers) {
     std::vector<Answer> sorted(answers.begin(), answers.end());
@@ -258,7 +281,7 @@ PsychometricFit fit_psychometric(std::span<const LevelCount> counts,
     const Search search(counts, settings);
     const Minimum best = search.run();
     return {search.function(best.x), best.value, 2 * (best.value - saturated(counts)),
-            search.shape_unknown(best)};
+            search.may_be_steep(best) || search.may_be_flat(best), search.may_be_flat(best)};
 }
 
 PsychometricIntervals profile_intervals(std::span<const LevelCount> counts,

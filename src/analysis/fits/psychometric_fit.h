@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "analysis/fits/minimise.h"
@@ -53,12 +54,19 @@ struct PsychometricFit {
     /// well, because the answers change from all "no" to all "yes" between two levels or have no
     /// trend. The shape is then meaningless.
     bool shape_unknown = false;
+    /// Whether a function that is flat over all levels fits equally well. The threshold is then
+    /// meaningless, too.
+    bool flat = false;
 };
 
 /// Throws Error for fewer than two levels, for impossible counts and, with Sigmoid::weibull, for
 /// levels that are not positive.
 PsychometricFit fit_psychometric(std::span<const LevelCount> counts,
                                  const PsychometricFitSettings& settings);
+
+/// The reason why a fitted threshold is not one: "yes" becomes less likely as the level rises (by
+/// the Mann-Whitney test, z < -1.96), or just as likely. "" if there is no such reason.
+std::string why_no_threshold(std::span<const LevelCount> counts, const PsychometricFit& fit);
 
 struct PsychometricIntervals {
     Interval threshold, shape, lapse;  ///< 95 %

@@ -39,13 +39,13 @@ rows::TrialFile trials_of(const recording::SessionFolder& folder,
     }
 }
 
-/// Takes the number of skipped reversals from the task, since the recorded procedures do not
-/// contain it.
-void note_skipped_reversals(std::vector<ThresholdTrack>& tracks, const task::Task& task) {
+/// Takes the rules of staircases from the task, since the recorded procedures do not contain them.
+void note_staircases(std::vector<ThresholdTrack>& tracks, const task::Task& task) {
     for (ThresholdTrack& track : tracks) {
         for (const task::ProcedureSpec& spec : task.procedures) {
-            if (spec.name == track.procedure && spec.staircase)
-                track.skipped_reversals = spec.staircase->skipped_reversals;
+            if (spec.name != track.procedure || !spec.staircase) continue;
+            track.down_after = spec.staircase->down_after;
+            track.skipped_reversals = spec.staircase->skipped_reversals;
         }
     }
 }
@@ -165,7 +165,7 @@ SessionData SessionData::read(const std::string& path) {
     if (is_there(folder.file("procedures.csv")))
         data.tracks =
             threshold_tracks(data.trials, rows::ProcedureFile(folder.file("procedures.csv")));
-    note_skipped_reversals(data.tracks, data.task);
+    note_staircases(data.tracks, data.task);
     return data;
 }
 

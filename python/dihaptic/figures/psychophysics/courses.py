@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -28,7 +27,7 @@ def procedure_courses(data: Data, *, procedures: list[str] | None = None) -> pd.
     A row has its procedure, and `of`: "answer", with its number from 1, its trial, its level and whether it was yes;
     "reversal" of a staircase, if not ignored, at the last answer before the direction changed; "mean" level of n people
     at an answer, as long as all of them answer, three times at least (the geometric mean, where `logarithmic`);
-    "threshold", of the fitted function or, of several people, the mean of theirs; those outside of the levels shown are
+    "threshold", of the fitted function or, of several people, the mean of theirs; those that are guesses are
     left out. Procedures with constant levels have no course. Raises NotThere, or Error when there are no answers.
 
     >>> from dihaptic import figures
@@ -51,10 +50,10 @@ def procedure_courses(data: Data, *, procedures: list[str] | None = None) -> pd.
             common = {**head, "group": own["group"].iloc[0], "person": person, "n": 1}
             columns = ["answer", "trial_num", "level", "said_yes"]
             rows += [{**common, "of": "answer", **row} for row in own[columns].to_dict("records")]
-            for row in own.iloc[_reversals(own["level"], procedure)][columns].to_dict("records"):
+            for row in own.iloc[_reversals(own["said_yes"], procedure)][columns].to_dict("records"):
                 rows.append({**common, "of": "reversal", **row})
         fits = fits_of(data, procedure)
-        fits = fits[~fits["outside"].astype(bool)]
+        fits = fits[~fits["guess"].astype(bool)]
         for group, own in answers.groupby("group", sort=False):
             if not is_single(data):
                 rows += [{**head, "group": group, "of": "mean", **row} for row in _mean_course(own, procedure.logarithmic)]
@@ -65,18 +64,22 @@ def procedure_courses(data: Data, *, procedures: list[str] | None = None) -> pd.
     return finished(rows, _COURSE, procedures)
 
 
-def _reversals(levels: pd.Series, procedure: Procedure) -> list[int]:
-    """Indices of the answers after which a staircase changed its direction, without the first ones, which are ignored."""
+def _reversals(said_yes: pd.Series, procedure: Procedure) -> list[int]:
+    """Indices of the answers after which a staircase changed its direction, without the first ones, which are ignored.
+
+    The levels alone would not show the reversal that ends a staircase, nor one at a limit.
+    """
     out: list[int] = []
-    way = 0
+    way = in_a_row = 0
     if procedure.kind != "staircase":
         return out
-    for i, step in enumerate(np.diff(levels), start=1):
-        now = int(np.sign(step))
+    for i, yes in enumerate(said_yes):
+        in_a_row = in_a_row + 1 if yes else 0
+        now = 1 if not yes else -1 if in_a_row == procedure.down_after else 0
         if now:
-            if way * now < 0:
-                out.append(i - 1)
-            way = now
+            if way == -now:
+                out.append(i)
+            way, in_a_row = now, 0
     return out[procedure.skipped :]
 
 
@@ -172,7 +175,7 @@ def plans_of_courses(data: Data, procedures: list[Procedure]) -> Iterator[Plan]:
     adaptive = [each for each in procedures if each.kind not in (ALL, "constant")]
     for name, some in parted("procedure-courses", adaptive):
         single = is_single(data)
-        fits = any((~fits_of(data, each)["outside"].astype(bool)).any() for each in some)
+        fits = any((~fits_of(data, each)["guess"].astype(bool)).any() for each in some)
         if single:
             what = f"Levels in the order of answers; filled: yes{_meaning(some)}, hollow: no."
             what += " Rings are reversals that are averaged." * any(each.kind == "staircase" for each in some)

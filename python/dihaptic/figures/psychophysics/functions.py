@@ -16,7 +16,7 @@ from ..data import Data, sitting_columns
 from ..means import BY_T, intervals, wilson
 from ..saving import Plan
 from ..style import COLOURS, MARKERS, QUIET, drawing, faint, legend_above, of_data
-from .panels import LINES, group_marks, groups_in, label_all, level_axes, panels_of, parted, people_inside, plan_of
+from .panels import LINES, group_marks, groups_in, label_all, level_axes, panels_of, parted, people_with_thresholds, plan_of
 from .procedures import PANEL, Procedure, answers_of, chosen, finished, fits_of, is_single, mean_of
 
 #: Minimum number of answers at a level for an interval, which would fill the panel and say nothing with fewer.
@@ -58,8 +58,8 @@ def psychometric_functions(data: Data, *, procedures: list[str] | None = None) -
     interval; "curve", a point of a person's function; "threshold", at `level`, where the function's value is `value`, with
     its 95 % interval of levels from `low` to `high`; "mean" of n people's thresholds, with its interval of levels;
     "chance", the share of guesses; "standard", its level. Levels have the unit `unit`, and are never logarithms; the mean
-    is the geometric one where `logarithmic`. Shares at levels are given only for one person. Thresholds outside the levels
-    shown are left out. `procedures`: names, by default all. Raises NotThere, or Error when there are no answers.
+    is the geometric one where `logarithmic`. Shares at levels are given only for one person. Thresholds that are
+    guesses are left out. `procedures`: names, by default all. Raises NotThere, or Error when there are no answers.
 
     >>> from dihaptic import figures
     >>> psychometric_functions(figures.read(lift_session))
@@ -91,7 +91,7 @@ def psychometric_functions(data: Data, *, procedures: list[str] | None = None) -
 
 def _mean_thresholds(fits: pd.DataFrame, procedure: Procedure) -> Iterator[dict[str, Any]]:
     """The mean threshold of each group's people, at their mean probability of yes."""
-    for group, own in fits[~fits["outside"].astype(bool)].groupby("group", sort=False):
+    for group, own in fits[~fits["guess"].astype(bool)].groupby("group", sort=False):
         mean = mean_of(own.groupby("person")["threshold_share"].mean(), procedure.logarithmic)
         yield {"group": group, "of": "mean", **mean, "level": mean["value"], "value": own["threshold_probability"].mean()}
 
@@ -131,7 +131,7 @@ def _curves(answers: pd.DataFrame, fits: pd.DataFrame, procedure: Procedure) -> 
             common["person"] = f"{fit['person']}, {fit['session']}"
         for level_, value in zip(10**x if procedure.logarithmic else x, p):
             yield {**common, "of": "curve", "level": level_, "value": value}
-        if not fit["outside"]:
+        if not fit["guess"]:
             ends = _interval(fit["threshold_95"])
             if procedure.logarithmic:
                 ends = [10**end for end in ends]
@@ -264,7 +264,7 @@ def _what_of_several(data: Data, procedures: list[Procedure]) -> str:
     """The caption for psychometric functions of several people."""
     out = "Thin curves are the functions fitted to each person's answers (maximum likelihood), over the levels that the person "
     out += "was shown; dots are their thresholds"
-    counts = people_inside(data, procedures)
+    counts = people_with_thresholds(data, procedures)
     if counts.empty:
         return f"{out}."
     cut = ", which are cut where they would leave the panel" if (counts > 1).any() else ""

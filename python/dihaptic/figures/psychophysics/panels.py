@@ -154,19 +154,19 @@ def counts_in_words(data: Data, procedures: list[Procedure]) -> str:
     return f"{counted(people, 'person', 'people')}, {counted(sum(map(len, answers)), 'answer')}"
 
 
-def outside_in_words(data: Data, procedures: list[Procedure]) -> str:
+def guesses_in_words(data: Data, procedures: list[Procedure]) -> str:
     """A sentence about thresholds that are not drawn."""
-    outside = sum(int(fits["outside"].sum()) for fits in (fits_of(data, each) for each in procedures))
-    if not outside:
+    guesses = sum(int(fits["guess"].sum()) for fits in (fits_of(data, each) for each in procedures))
+    if not guesses:
         return ""
-    verb = "is" if outside == 1 else "are"
-    return f" {counted(outside, 'threshold lies', 'thresholds lie')} outside the levels shown, and {verb} left out."
+    verb = "is" if guesses == 1 else "are"
+    return f" {counted(guesses, 'threshold is a guess', 'thresholds are guesses')}, as thresholds.csv notes, and {verb} left out."
 
 
-def people_inside(data: Data, procedures: list[Procedure]) -> pd.Series:
+def people_with_thresholds(data: Data, procedures: list[Procedure]) -> pd.Series:
     """How many people of each group have a threshold within the levels shown, for each procedure."""
     fits = [fits_of(data, each).assign(procedure=each.title) for each in procedures]
-    known = pd.concat([each[~each["outside"].astype(bool)] for each in fits if len(each)] or [pd.DataFrame()])
+    known = pd.concat([each[~each["guess"].astype(bool)] for each in fits if len(each)] or [pd.DataFrame()])
     return known.groupby(["procedure", "group"])["person"].nunique() if len(known) else pd.Series(dtype=int)
 
 
@@ -179,7 +179,7 @@ def plan_of(data: Data, name: str, title: str, what: str, some: list[Procedure],
     return Plan(
         name=name,
         title=title,
-        caption=f"{what} {counts_in_words(data, some)}.{outside_in_words(data, some)}",
+        caption=f"{what} {counts_in_words(data, some)}.{guesses_in_words(data, some)}",
         points=points,
         points_options={"procedures": [each.title for each in some]},
         drawing=drawing,

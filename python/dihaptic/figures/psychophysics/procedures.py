@@ -14,7 +14,6 @@ from ..means import t_quantile
 from ..words import words_of
 
 ALL = "all of these"  # kind of a fit to the answers of several procedures
-_OUTSIDE = "outside of the levels"  # beginning of the note on a threshold that is a guess
 #: Columns of a table of points that have a procedure's properties.
 PANEL = ["procedure", "kind", "quantity", "unit", "logarithmic", "yes"]
 
@@ -38,6 +37,7 @@ class Procedure:
     guess_is_lapse: bool
     standard: float
     skipped: int  # number of first reversals of a staircase to ignore
+    down_after: int  # consecutive answers of yes that lower a staircase's level
 
     @property
     def title(self) -> str:
@@ -91,16 +91,17 @@ def _procedure(data: Data, row: dict[str, Any], sitting: str) -> Procedure:
     trials = data.table("trials")
     column = text_of(row.get("level"))
     unit = str(trials.attrs.get("units", {}).get(column, "")) if column else ""
-    skipped = 0
+    staircase: dict[str, Any] = {}
     for own in data.task.get("procedures") or []:
         if str(own.get("name")) == str(row["procedure"]):
-            skipped = int((own.get("staircase") or {}).get("skipped_reversals", 0) or 0)
+            staircase = own.get("staircase") or {}
     return Procedure(
         name=str(row["procedure"]), parts=(str(row["procedure"]),), sitting=sitting, kind=text_of(row.get("kind")),
         quantity=words_of(column, unit) if column else "share of the perturbation", unit=unit, column=column or "share",
         logarithmic=is_yes(row.get("logarithmic")), yes=text_of(row.get("yes")), no=text_of(row.get("no")),
         sigmoid=text_of(row.get("sigmoid")), guess=float(row.get("guess", np.nan)),
-        guess_is_lapse=is_yes(row.get("guess_is_lapse")), standard=float(row.get("standard", np.nan)), skipped=skipped,
+        guess_is_lapse=is_yes(row.get("guess_is_lapse")), standard=float(row.get("standard", np.nan)),
+        skipped=int(staircase.get("skipped_reversals", 0) or 0), down_after=int(staircase.get("down_after", 1) or 1),
     )  # fmt: skip
 
 
@@ -170,15 +171,15 @@ def answers_of(data: Data, procedure: Procedure) -> pd.DataFrame:
 
 
 def fits_of(data: Data, procedure: Procedure) -> pd.DataFrame:
-    """Rows of thresholds.csv with a fitted function; `outside`: its threshold is a guess."""
+    """Rows of thresholds.csv with a fitted function; `guess`: its note says why its threshold is one."""
     if not data.has("thresholds"):
-        return pd.DataFrame(columns=["person", "group", "outside"])
+        return pd.DataFrame(columns=["person", "group", "guess"])
     table = _of_sitting(data.table("thresholds"), procedure)
     table = table[(table["procedure"].astype(str) == procedure.name) & ((table["kind"] == ALL) == (procedure.kind == ALL))]
     # only the latest report of a session is used
     table = table.drop_duplicates(sitting_columns(table), keep="last")
     table = table[table["threshold"].notna() & (table["shape"] > 0)]
-    return table.assign(outside=table["note"].fillna("").astype(str).str.startswith(_OUTSIDE))
+    return table.assign(guess=table["note"].notna())
 
 
 def finished(parts: list[dict[str, Any]], columns: list[str], procedures: list[str] | None) -> pd.DataFrame:

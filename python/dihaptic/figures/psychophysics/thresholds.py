@@ -20,9 +20,9 @@ from .panels import (
     group_marks,
     groups_in,
     log_ticks,
-    outside_in_words,
+    guesses_in_words,
     parted,
-    people_inside,
+    people_with_thresholds,
     quantity,
     size_option,
 )
@@ -39,7 +39,7 @@ def thresholds_by_procedure(
 
     `measure`: threshold_share, the threshold in the unit of the level; weber_fraction; or mean_of_reversals. A row has
     its procedure and group, and `of`: "person", or "mean" over n people with its 95 % interval (Student's t); the
-    geometric mean, where `logarithmic`. Thresholds outside the levels shown are left out. Raises NotThere, or Error when
+    geometric mean, where `logarithmic`. Thresholds that are guesses are left out. Raises NotThere, or Error when
     there is none.
 
     >>> from dihaptic import figures
@@ -57,7 +57,7 @@ def thresholds_by_procedure(
         if fits.empty or measure not in fits:
             continue
         if measure != "mean_of_reversals":
-            fits = fits[~fits["outside"]]
+            fits = fits[~fits["guess"]]
         fits = fits[np.isfinite(fits[measure].astype(float))]
         logarithmic = procedure.logarithmic and measure != "weber_fraction"
         if logarithmic:
@@ -144,9 +144,9 @@ def plans_of_thresholds(data: Data, procedures: list[Procedure]) -> Iterator[Pla
         inside = {each.title: fits_of(data, each) for each in procedures}
         drawn = [
             each for each in procedures
-            if measure in inside[each.title] and (~inside[each.title]["outside"] & inside[each.title][measure].notna()).any()
+            if measure in inside[each.title] and (~inside[each.title]["guess"] & inside[each.title][measure].notna()).any()
         ]  # fmt: skip
-        most = [inside[each.title][~inside[each.title]["outside"]]["person"].nunique() for each in drawn]
+        most = [inside[each.title][~inside[each.title]["guess"]]["person"].nunique() for each in drawn]
         if max(most, default=0) < 2:
             continue  # a dot and its own mean show nothing
         for part, some in parted(name, drawn):
@@ -157,8 +157,8 @@ def plans_of_thresholds(data: Data, procedures: list[Procedure]) -> Iterator[Pla
             yield Plan(
                 name=part,
                 title=f"{title} by procedure",
-                caption=f"Dots are people{joined}; marks are means{geometric}{intervals(people_inside(data, some), BY_T)}. "
-                f"{counts_in_words(data, some)}.{outside_in_words(data, procedures)}",
+                caption=f"Dots are people{joined}; marks are means{geometric}{intervals(people_with_thresholds(data, some), BY_T)}. "
+                f"{counts_in_words(data, some)}.{guesses_in_words(data, procedures)}",
                 points=thresholds_by_procedure,
                 points_options={"measure": measure, "procedures": [each.title for each in some]},
                 drawing=draw_thresholds,

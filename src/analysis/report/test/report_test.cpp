@@ -241,7 +241,7 @@ TEST(Thresholds, AreFittedToTheAnswersOfTheirProcedure) {
 TEST(Thresholds, OfProceduresOverOneNumberArePooledAndHaveAWeberFraction) {
     const testing::TemporaryFolder folder;
     std::string text = "trial_num,mass_g,procedure,outcome\n";
-    const char* levels[] = {"240", "260", "230", "250", "220", "240", "210", "230"};
+    const char* levels[] = {"250", "230", "250", "220", "240", "210", "230", "200"};
     for (int i = 0; i < 8; ++i) {
         text += fmt::format("{},{},down,{}\n", 2 * i + 1, levels[i], i % 2 == 0 ? "yes" : "no");
         text += fmt::format("{},{},up,{}\n", 2 * i + 2, 200 + 10 * i, i > 3 ? "yes" : "no");
@@ -258,11 +258,20 @@ TEST(Thresholds, OfProceduresOverOneNumberArePooledAndHaveAWeberFraction) {
     EXPECT_EQ(tracks[3].procedure, "down, up");
     EXPECT_EQ(tracks[3].answers.size(), 16u);
     EXPECT_EQ(tracks[3].trials[1], 2);
-    EXPECT_EQ(tracks[3].answers[0].level, 240);
-    EXPECT_EQ(tracks[0].reversals(), (std::vector<double>{260, 230, 250, 220, 240, 210}));
+    EXPECT_EQ(tracks[3].answers[0].level, 250);
+    // the last answer ends in a reversal, although no level follows
+    EXPECT_EQ(tracks[0].reversals(), (std::vector<double>{230, 250, 220, 240, 210, 230, 200}));
     tracks[0].skipped_reversals = 4;
-    EXPECT_EQ(tracks[0].reversals(), (std::vector<double>{240, 210}));
-    EXPECT_TRUE(tracks[1].reversals().empty());
+    EXPECT_EQ(tracks[0].reversals(), (std::vector<double>{210, 230, 200}));
+    FigureLister row;
+    list_psychophysics(tracks[0], {}, row);
+    const auto figure = [&](const char* name) {
+        const auto at = std::ranges::find(row.columns, name, &Table::Column::name);
+        return std::get<double>(row.cells.at(static_cast<size_t>(at - row.columns.begin())));
+    };
+    EXPECT_EQ(figure("reversals"), 3);
+    EXPECT_EQ(figure("mean_of_reversals"), 215);  // of as many peaks as valleys
+    EXPECT_EQ(tracks[1].reversals(), std::vector<double>{240});
     // from the quartiles of a normal function, and from the threshold of a forced choice
     EXPECT_NEAR(tracks[3].weber_fraction({.threshold = 205, .shape = 20}), 0.0674490, 1e-6);
     EXPECT_NEAR(tracks[3].weber_fraction({.threshold = 225, .shape = 20, .guess = 0.5}), 0.125,
@@ -287,9 +296,31 @@ TEST(Thresholds, ThatCannotBeFittedSayWhyAndOutsideOnesAreMarked) {
     const ThresholdFit far = fit_threshold(track);
     ASSERT_TRUE(far.fit);
     EXPECT_GT(far.fit->function.threshold, 0.3);
-    EXPECT_TRUE(far.outside);
     EXPECT_NE(far.note.find("outside of the levels shown, 0 to 0.3"), std::string::npos)
         << far.note;
+}
+
+TEST(Thresholds, ThatFallOrDoNotDependOnTheLevelAreGuesses) {
+    ThresholdTrack track;
+    track.model.guess = 0;
+    const auto answer = [&](double level, int yes, int no) {
+        for (int i = 0; i < yes; ++i) track.answers.push_back({level, true});
+        for (int i = 0; i < no; ++i) track.answers.push_back({level, false});
+    };
+    answer(50, 14, 1);
+    answer(80, 9, 6);
+    answer(110, 4, 11);
+    answer(140, 0, 15);
+    EXPECT_NE(fit_threshold(track).note.find("less likely as the level rises"), std::string::npos);
+    track.answers.clear();
+    for (const double level : {50, 80, 110, 140}) answer(level, 8, 7);
+    EXPECT_NE(fit_threshold(track).note.find("as likely at all levels"), std::string::npos);
+    track.answers.clear();
+    answer(50, 1, 14);
+    answer(80, 6, 9);
+    answer(110, 11, 4);
+    answer(140, 15, 0);
+    EXPECT_EQ(fit_threshold(track).note, "");
 }
 
 TEST(Adaptation, WindowsAreOfOneBlockEach) {
