@@ -102,9 +102,9 @@ const Books::Entry* Books::entry(int body) const noexcept {
     return &entries_[static_cast<size_t>(body)];
 }
 
-Books::Meeting Books::meet(int a, int b, const Vec3& p_W) const noexcept {
+Books::Meeting Books::meet(const Exchange& exchange) const noexcept {
     Meeting out;
-    const auto add = [&](const Entry* one, double sign) {
+    const auto add = [&](const Entry* one, const Vec3& p_W, double sign) {
         if (one == nullptr) return;
         const Vec3 arm = p_W - one->before.p_WM;
         out.v_mean += sign * (one->v_mean_W + one->w_mean_W.cross(arm));
@@ -112,18 +112,19 @@ Books::Meeting Books::meet(int a, int b, const Vec3& p_W) const noexcept {
         out.w_mean += sign * one->w_mean_W;
         out.w_after += sign * one->w_struck_W;
     };
-    add(entry(a), -1);
-    add(entry(b), 1);
+    add(entry(exchange.a), exchange.point_of_a(), -1);
+    add(entry(exchange.b), exchange.point_of_b(), 1);
     return out;
 }
 
-Vec3 Books::way(int a, int b, const Vec3& p_W) const noexcept {
-    const auto of = [&](const Entry* one) -> Vec3 {
+Vec3 Books::way(const Exchange& exchange) const noexcept {
+    const auto of = [&](const Entry* one, const Vec3& p_W) -> Vec3 {
         if (one == nullptr) return Vec3::Zero();
         const Vec3 arm = one->before.R_WM.transpose() * (p_W - one->before.p_WM);
         return one->after.p_WM + one->after.R_WM * arm - p_W;
     };
-    return of(entry(b)) - of(entry(a));
+    return of(entry(exchange.b), exchange.point_of_b()) -
+           of(entry(exchange.a), exchange.point_of_a());
 }
 
 void Books::check_gap(const Exchange& exchange, const Meeting& meeting, const Vec3& n_W,
@@ -135,8 +136,7 @@ void Books::check_gap(const Exchange& exchange, const Meeting& meeting, const Ve
         return inside > kLeast && inside > kLeast + kShareOfWay * way.norm();
     };
     // a fault only if both the velocities and the paths clearly show that a body enters the other
-    if (enters(h_ * meeting.v_after) && enters(way(exchange.a, exchange.b, exchange.p_W)))
-        balance_.unbalanced = true;
+    if (enters(h_ * meeting.v_after) && enters(way(exchange))) balance_.unbalanced = true;
 }
 
 void Books::act(Entry& one, const Vec3& p_W, const Vec3& impulse_W, const Vec3& moment_W) noexcept {
@@ -157,10 +157,11 @@ void Books::take(const Exchange& exchange, const Meeting& meeting) noexcept {
         const int body = sign < 0 ? exchange.a : exchange.b;
         if (entry(body) == nullptr) continue;
         Entry& one = entries_[static_cast<size_t>(body)];
-        act(one, exchange.p_W, sign * exchange.impulse_W, sign * exchange.moment_W);
+        const Vec3 p_W = sign < 0 ? exchange.point_of_a() : exchange.point_of_b();
+        act(one, p_W, sign * exchange.impulse_W, sign * exchange.moment_W);
         within = within || !one.body.is_outside;
         if (!one.body.is_outside) continue;
-        const Vec3 v = one.v_mean_W + one.w_mean_W.cross(exchange.p_W - one.before.p_WM);
+        const Vec3 v = one.v_mean_W + one.w_mean_W.cross(p_W - one.before.p_WM);
         outside -= sign * (exchange.impulse_W.dot(v) + exchange.moment_W.dot(one.w_mean_W));
     }
     if (!within) return;

@@ -64,6 +64,7 @@ class Books {
         int a = -1;
         int b = -1;
         Vec3 p_W = Vec3::Zero();
+        Vec3 apart_W = Vec3::Zero();    ///< from a's point to b's, with p_W in the middle
         Vec3 impulse_W = Vec3::Zero();  ///< [N*s]
         Vec3 moment_W = Vec3::Zero();   ///< [N*m*s]
         double given = 0;               ///< work done by the joint's motor [J]
@@ -73,6 +74,9 @@ class Books {
         /// Index of the joint, whose springs may owe energy from one step to the next; -1 for a
         /// contact.
         int joint = -1;
+
+        Vec3 point_of_a() const { return p_W - apart_W / 2; }
+        Vec3 point_of_b() const { return p_W + apart_W / 2; }
     };
     /// Velocities of b relative to a at a point: the velocity after the impulses, and the mean of
     /// the velocities before and after them.
@@ -85,10 +89,10 @@ class Books {
         Vec3 w_before() const { return 2 * w_mean - w_after; }
     };
     /// To be called, like all functions below, once all bodies have been closed.
-    Meeting meet(int a, int b, const Vec3& p_W) const noexcept;
-    /// Displacement during the step of the point of b that was initially at p_W, relative to the
+    Meeting meet(const Exchange& exchange) const noexcept;
+    /// Displacement during the step of the point of b at which the impulse acts, relative to the
     /// corresponding point of a.
-    Vec3 way(int a, int b, const Vec3& p_W) const noexcept;
+    Vec3 way(const Exchange& exchange) const noexcept;
     /// Checks a contact between rigid surfaces that were `gap` apart along n_W (from a to b) at the
     /// start of the step. Notes an imbalance if the surfaces nevertheless penetrate each other.
     void check_gap(const Exchange& exchange, const Meeting& meeting, const Vec3& n_W,

@@ -48,9 +48,10 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
     Books::Exchange exchange{.a = contact.a.value,
                              .b = contact.b.value,
                              .p_W = carried(point).acts_at_W,
+                             .apart_W = carried(point).apart * n_W,
                              .impulse_W = h * contact.f_B_W,
                              .moment_W = h * contact.moment * n_W};
-    const Books::Meeting meeting = books.meet(exchange.a, exchange.b, exchange.p_W);
+    const Books::Meeting meeting = books.meet(exchange);
     const bool is_rigid = law.stiffness == 0 && law.compliance == 0;
     if (is_rigid) books.check_gap(exchange, meeting, n_W, contact.gap);
     if (is_rigid && exchange.impulse_W.isZero(0) && contact.moment == 0) return;
@@ -62,7 +63,7 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
     const double twisting = exchange.moment_W.dot(meeting.w_after);
     double rubbing = friction_W.dot(meeting.v_after) + twisting;
     if (rubbing > 0) {  // velocities are tangential to the arcs of the points
-        rubbing = friction_W.dot(books.way(exchange.a, exchange.b, exchange.p_W)) / h + twisting;
+        rubbing = friction_W.dot(books.way(exchange)) / h + twisting;
     }
     if (is_rigid && law.restitution == 0) {
         pressing -= returned(carried(point), contact.gap, normal, n_W.dot(meeting.v_after), h);
@@ -113,7 +114,7 @@ double World::Impl::loads_at(const contact::Contact& contact, const btManifoldPo
 void World::Impl::take_joints(double h) {
     for (size_t i = 0; i < joints.size(); ++i) {
         const Books::Meeting meeting =
-            books.meet(joints.a(i).item, joints.b(i).item, joints.acts_at(i));
+            books.meet({.a = joints.a(i).item, .b = joints.b(i).item, .p_W = joints.acts_at(i)});
         books.take(joints.exchange(i, h, meeting), meeting);
     }
 }

@@ -449,6 +449,74 @@ task:
             self.assertLess(np.abs(plate - block).max(), 1e-7)
 
 
+class Arriving(unittest.TestCase):
+    def test_a_ball_that_bounces_obliquely_is_turned_by_the_friction_at_its_surface(self):
+        """Wherever in a tick it arrives: dw = mu (1 + e) v m r / I while it slips, and 5 v / 7 r once it rolls."""
+        mu, across, speed = 0.1, 4, 2
+        for solver in soak.of(["newton", "sequential_impulse"], SOLVERS):
+            for radius in (0.005, 0.02):
+                for gap in (1e-5, 5e-4, 1.9e-3):
+                    for restitution in (0, 0.7):
+                        with self.subTest(solver=solver, radius=radius, gap=gap, restitution=restitution):
+                            w = world([dh.Part(name="plane", shape="plane", fixed=True, friction=mu),
+                                       dh.Part(name="ball", shape="sphere", radius_mm=1e3 * radius, mass_g=50, friction=mu,
+                                               position_mm=[0, 0, 500], surface={"restitution": restitution})],
+                                      solver, gravity=(0, 0, 0))  # fmt: skip
+                            ball = w.bodies["ball"]
+                            ball.place((0, 0, radius + gap), UPRIGHT, (across, 0, -speed), (0, 0, 0))
+                            w.step(20)
+                            lost = min(mu * (1 + restitution) * speed, across * 2 / 7)
+                            self.assertAlmostEqual(ball.velocity[0], across - lost, delta=1e-6)
+                            self.assertAlmostEqual(ball.angular_velocity[1] * radius / (2.5 * lost), 1, delta=1e-6)
+
+    def test_two_balls_that_meet_obliquely_are_turned_alike(self):
+        radius, mu, speed, across = 0.005, 0.02, 1, 0.3
+        for gap in (1e-5, 9e-4):
+            with self.subTest(gap=gap):
+                balls = [dh.Part(name=name, shape="sphere", radius_mm=1e3 * radius, mass_g=50, friction=mu, position_mm=[x, 0, 500])
+                         for name, x in (("left", 0), ("right", 100))]  # fmt: skip
+                w = world(balls, gravity=(0, 0, 0))
+                left, right = w.bodies["left"], w.bodies["right"]
+                left.place((0, 0, 0.5), UPRIGHT, (speed / 2, across / 2, 0), (0, 0, 0))
+                right.place((2 * radius + gap, 0, 0.5), UPRIGHT, (-speed / 2, -across / 2, 0), (0, 0, 0))
+                w.step(20)
+                lost = mu * speed / 2  # each: the impulse is that of the reduced mass
+                for ball in (left, right):  # their normal turns by 0.03 in a tick
+                    self.assertAlmostEqual(ball.angular_velocity[2] * radius / (-2.5 * lost), 1, delta=0.04)
+
+
+class Rods(unittest.TestCase):
+    def circles(self, length, speed, high=None):
+        """A ball on a rod, or on a rope, that circles about a point; its largest and its smallest distance, and its speed."""
+        rope = {} if high is None else {"high_mm": 1e3 * high}
+        joint = dh.Part(name="rod", kind="distance", between=["ball"], position_mm=[0, 0, 500],
+                        second_position_mm=[1e3 * length, 0, 500], **rope)  # fmt: skip
+        w = world([dh.Part(name="ball", shape="sphere", radius_mm=5, mass_g=100, position_mm=[1e3 * length, 0, 500])],
+                  gravity=(0, 0, 0), joints=[joint])  # fmt: skip
+        ball = w.bodies["ball"]
+        ball.place((length, 0, 0.5), UPRIGHT, (0, speed, 0), (0, 0, 0))
+        distances = []
+        for _ in range(300):
+            w.step(1)
+            distances.append(np.linalg.norm(np.subtract(ball.position, (0, 0, 0.5))))
+        return min(distances[1:]), max(distances), np.linalg.norm(ball.velocity)
+
+    def test_a_rod_keeps_its_length_however_fast_it_turns(self):
+        for length, speed in ((0.01, 2), (0.1, 9.5), (0.1, 12), (0.1, 20), (0.1, 30), (1, 40)):
+            with self.subTest(length=length, speed=speed):
+                shortest, longest, now = self.circles(length, speed)
+                self.assertAlmostEqual(shortest, length, delta=1e-6)
+                self.assertAlmostEqual(longest, length, delta=1e-6)
+                # velocities are those in the middle of a step
+                self.assertAlmostEqual(now / speed, 1, delta=0.02)
+
+    def test_a_rope_is_not_stretched_by_what_circles_on_it(self):
+        for length, speed in ((0.1, 9.5), (0.1, 20)):
+            with self.subTest(length=length, speed=speed):
+                _, longest, _ = self.circles(length, speed, high=length)
+                self.assertLess(longest, length + 1e-5)
+
+
 class Concave(unittest.TestCase):
     @soak.alone
     def test_a_ring_lies_flat_on_a_table(self):

@@ -31,6 +31,7 @@ struct Carried {
     Vec3 friction_W = Vec3::Zero();  ///< [N*s]
     double moment = 0;               ///< moment about the normal [N*m*s]
     Vec3 acts_at_W = Vec3::Zero();   ///< point of action, between the two surfaces
+    double apart = 0;  ///< distance of the two bodies' points of action, along the normal [m]
     ContactLaw law;
     double sunk = 0;  ///< energy taken while the bodies entered each other, not yet returned [J]
     bool in_use = false;

@@ -315,9 +315,20 @@ Books::Exchange Joints::exchange(size_t i, double h, const Books::Meeting& meeti
     return out;
 }
 
-/// Sets the rows of a joint coordinate, which would be q at the end of a step without motion: a
-/// spring with its damper, dry friction, and the nearer stop.
-void Joints::ask_of_coordinate(size_t i, double q, double h, ProblemJoint& row) const noexcept {
+/// The speed at which a coordinate must change so that it is not `off` from a stop at the end of
+/// the step [m/s], [rad/s]. The part of `off` that is there at the start, `off_now`, is undone
+/// slowly; the rest is due to the turning of the joint's direction in the step, however fast that
+/// is.
+double speed_to_stop(double off, double off_now, double h, double pull) {
+    if (std::abs(off) <= pull * h) return off / h;
+    return std::clamp(off_now / h, -pull, pull) + (off - off_now) / h;
+}
+
+/// Sets the rows of a joint coordinate, which is now `q_now` and would be q at the end of a step
+/// without motion: a spring with its damper, dry friction, and the nearer stop. Returns the change
+/// in the bias of a rod, and of a stop against which the coordinate turns fast.
+double Joints::ask_of_coordinate(size_t i, double q, double q_now, double h,
+                                 ProblemJoint& row) const noexcept {
     enum { kSpring, kMotor, kStop };
     const Joint& joint = joints_[i];
     const scene::Joint& spec = joint.spec;
@@ -333,16 +344,24 @@ void Joints::ask_of_coordinate(size_t i, double q, double h, ProblemJoint& row) 
     if (spec.low && spec.high && *spec.low == *spec.high) {
         row.low[kStop] = -kNone;
         row.high[kStop] = kNone;
-        row.bias[kStop] = std::clamp((q - *spec.low) / h, -pull, pull);
+        const double bias = speed_to_stop(q - *spec.low, q_now - *spec.low, h, pull);
+        const double change = std::abs(bias - row.bias[kStop]);
+        row.bias[kStop] = bias;
         row.compliance[kStop] = 1 / (h * h * (spec.slides() ? kStiffness : kTurnStiffness));
-        return;
+        return change;
     }
     const double above = spec.low ? q - *spec.low : kNone;
     const double below = spec.high ? *spec.high - q : kNone;
     row.low[kStop] = below < above ? -kNone : 0;
     row.high[kStop] = above <= below && spec.low ? kNone : 0;
-    const double gap = std::max(std::min(above, below) / h, -pull);
-    row.bias[kStop] = below < above ? -gap : spec.low ? gap : 0;
+    // the distance to the stop, or what must be undone beyond it
+    const double gap = std::min(above, below);
+    const double gap_now = below < above ? *spec.high - q_now : spec.low ? q_now - *spec.low : 0;
+    const double speed = gap > 0 ? gap / h : speed_to_stop(gap, std::min(gap_now, 0.0), h, pull);
+    const double bias = below < above ? -speed : spec.low ? speed : 0;
+    const double change = gap < -pull * h ? std::abs(bias - row.bias[kStop]) : 0;
+    row.bias[kStop] = bias;
+    return change;
 }
 
 void Joints::ask_of_motor(const Joint& joint, double q, double h, int k,
@@ -408,7 +427,8 @@ double Joints::ask(size_t i, double h, const Vec6& v_a, const Vec6& v_b) noexcep
         set(joint.rows[1], now.angular[k], then.angular[k], kTurnStiffness, kTurnPull);
     }
     if (joint.spec.has_coordinate())
-        ask_of_coordinate(i, then.q - h * inside(joint.rows[2], 0, v_a, v_b), h, joint.rows[2]);
+        most = std::max(most, ask_of_coordinate(i, then.q - h * inside(joint.rows[2], 0, v_a, v_b),
+                                                now.q, h, joint.rows[2]));
     return most;
 }
 

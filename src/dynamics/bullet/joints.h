@@ -147,7 +147,8 @@ class Joints {
     static contact::Vec6 expected(const Side& side, const Change& change, double h) noexcept;
     /// Computes the rows for the guessed velocities. Returns the largest change in a bias.
     double ask(size_t i, double h, const contact::Vec6& v_a, const contact::Vec6& v_b) noexcept;
-    void ask_of_coordinate(size_t i, double q, double h, contact::ProblemJoint& row) const noexcept;
+    double ask_of_coordinate(size_t i, double q, double q_now, double h,
+                             contact::ProblemJoint& row) const noexcept;
     /// Copies a joint's rows to the problem.
     static void tell(const Joint& joint, contact::ContactProblem& problem) noexcept;
     /// Computes the rows of a bushing whose gaps would be `then` after a step at these velocities.

@@ -180,10 +180,15 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
             Vec3 p_WC = middle(point);
             p_WC += (height - n_W.dot(p_WC)) * n_W;
             carried(point).acts_at_W = p_WC;
-            out.p_AC_W = p_WC - from_bullet(a.getWorldTransform().getOrigin());
-            out.p_BC_W = p_WC - from_bullet(b.getWorldTransform().getOrigin());
-            out.R_WC = contact_frame(normal_of(point));
             const double gap = gap_of(point);
+            // Each body is turned by friction at its own surface, where the other one arrives in
+            // the step: a ball that lands, rolls. Flat faces share a plane instead (mean_height).
+            out.R_WC = contact_frame(normal_of(point));
+            const bool meets = manifold->getNumContacts() == 1 && gap > 0;
+            carried(point).apart = meets ? gap : 0;
+            const Vec3 to_own = carried(point).apart / 2 * out.R_WC.col(0);
+            out.p_AC_W = p_WC - to_own - from_bullet(a.getWorldTransform().getOrigin());
+            out.p_BC_W = p_WC + to_own - from_bullet(b.getWorldTransform().getOrigin());
             out.bias = gap > 0 ? gap / h : std::max(recovery * gap / h, -kMostRecovery);
 
             out.friction = point.m_combinedFriction;
