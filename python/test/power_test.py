@@ -324,7 +324,7 @@ class Pools(unittest.TestCase):
             self.assertAlmostEqual(normal.at(n).power, of_t, delta=0.025)
         self.assertAlmostEqual(normal.standardised, -0.6, delta=0.002)
         text = result.save(Path(self.folder.name, "of-interest")).read_text()
-        self.assertIn("Sought is the smallest effect of interest, -0.02, Cohen's d = ", result.in_words())
+        self.assertIn("The effect to be detected is the smallest effect of interest, -0.02, Cohen's d = ", result.in_words())
         self.assertNotIn("The effect compares people with a fixed number", text)
         self.assertNotIn("cannot tell this effect from zero", text)
 

@@ -68,8 +68,12 @@ void GraspTrace::add(const frame::Frame& frame) {
     sample.touching.assign(n, false);
     sample.normal_force.assign(n, 0);
     sample.f_tangential_W.assign(n, Vec3::Zero());
+    sample.friction_scale = frame.friction_scale;
     for (const frame::PropertiesFrame& properties : frame.task.properties) {
-        if (properties.body == object_) sample.friction_scale = properties.friction_scale;
+        if (properties.body != object_) continue;
+        sample.friction_scale *= properties.friction_scale;
+        sample.mass_scale = properties.mass_scale;
+        sample.weight_scale = properties.weight_scale;
     }
     sample.torque = frame.turns.empty() ? kUnmeasured : 0;
     for (const frame::TurnFrame& turn : frame.turns)
@@ -86,6 +90,10 @@ void GraspTrace::add(const frame::Frame& frame) {
         sample.f_sent_W.push_back(finger.f_sent_W);
     }
     add_contacts(sample, frame, object_);
+    for (const frame::PropertiesFrame& properties : frame.task.properties) {
+        if (sample.support >= 0 && properties.body == sample.support)
+            sample.support_friction_scale = properties.friction_scale;
+    }
     // a vector that grows moves its samples, of more than half a kilobyte each, again and again
     if (samples_.capacity() == 0) samples_.reserve(kUsualSamples);
     samples_.push_back(std::move(sample));
@@ -235,6 +243,12 @@ double GraspTrace::weight_felt(Range range) const {
     for (size_t i = range.first; i < range.last; ++i) {
         for (const Vec3& f : samples_[i].f_sent_W) sum -= f.z();
     }
+    return sum / static_cast<double>(range.size());
+}
+
+double GraspTrace::mean_weight_scale(Range range) const {
+    double sum = 0;
+    for (size_t i = range.first; i < range.last; ++i) sum += samples_[i].weight_scale;
     return sum / static_cast<double>(range.size());
 }
 

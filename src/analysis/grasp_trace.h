@@ -52,7 +52,10 @@ class GraspTrace {
         PerFinger<double> normal_force;  ///< [N]
         PerFinger<Vec3> f_tangential_W;  ///< tangential force on the finger [N]
         double friction_scale = 1;  ///< factor on the object's friction coefficients in the scene
-        bool resumed = false;       ///< whether the session continued after a pause
+        double support_friction_scale = 1;  ///< factor on those of the support
+        Vec3 mass_scale = Vec3::Ones();     ///< factors on the object's inertia
+        double weight_scale = 1;            ///< factor on the object's weight
+        bool resumed = false;               ///< whether the session continued after a pause
 
         /// Whether any finger presses on the object.
         bool touched() const;
@@ -91,6 +94,8 @@ class GraspTrace {
     double force_above_5_hz(Range range) const;
     /// Mean of the downward forces on the handles, summed over the fingers [N].
     double weight_felt(Range range) const;
+    /// Mean of the factor on the object's weight.
+    double mean_weight_scale(Range range) const;
     double mean_grip(Range range) const;
     double mean_load(Range range) const;
     double peak_grip(Range range) const;

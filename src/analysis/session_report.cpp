@@ -64,7 +64,8 @@ rows::PhaseRow figures_of(const GraspTrace& trace, Range range, double weight) {
     // the object's pose may be unknown after damage to the log
     const bool known = trace.samples()[range.first].X_WB.p.allFinite();
     out.slip = held && known ? trace.slip(range) : kUnmeasured;
-    out.weight_felt = carried ? trace.weight_felt(range) / weight : kUnmeasured;
+    const double now = weight * trace.mean_weight_scale(range);
+    out.weight_felt = carried && now > 0 ? trace.weight_felt(range) / now : kUnmeasured;
     return out;
 }
 

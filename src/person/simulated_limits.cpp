@@ -86,12 +86,13 @@ void warn_of_shifts(const task::TaskPlan& plan, std::vector<Problem>& out) {
         return perturbation.visual && !(perturbation.visual->shift == FormulaVec3{});
     };
     for (const task::PerturbationSpec* perturbation : perturbations_with(plan, shifts)) {
-        out.push_back({Severity::warning, perturbation->place, perturbation->name,
-                       "shifts what is shown: simulated people correct a shift about as much as "
-                       "people do if they see the hand all the way; if it is shown only later in "
-                       "the reach, they correct too much, and take the shift for a turn, so that "
-                       "changes over trials are arbitrary",
-                       kRemedy});
+        out.push_back(
+            {Severity::warning, perturbation->place, perturbation->name,
+             "shifts what is shown: simulated people correct a shift about as much as "
+             "people do if they see the hand all the way; if it is shown only later in "
+             "the reach, they correct too much, and mistake the shift for a rotation, so that "
+             "changes over trials are arbitrary",
+             kRemedy});
     }
 }
 

@@ -44,7 +44,7 @@ struct EpisodeRow {
         v("distance", f.distance, "mm", "slide: length of the path");
         v("friction_ratio", f.friction_ratio, "1",
           "slide: ratio of the work of friction to mu N times the distance; 1 for a body that does "
-          "not turn, pushed or free");
+          "not turn, pushed or free; empty while fingers carry most of the body");
         v("release_speed", f.release_speed, "m/s", "flight: speed at release");
         v("release_ratio", f.release_ratio, "1",
           "flight: component of the release velocity along the mean velocity of the releasing "

@@ -80,7 +80,9 @@ struct LiftRow {
           "mean height in the hold, above the object's height at the start");
         v("overshoot", f.overshoot, "mm", "largest height above the mean height in the hold");
         v("slip", f.slip, "mm", "slip of the digit that slipped most, from lift-off to lowering");
-        v("slips", f.slips, "1", "number of times that a digit slid faster than 5 mm/s");
+        v("slips", f.slips, "1",
+          "number of times that a touching digit slid faster than 5 mm/s, from lift-off to "
+          "lowering");
         v("first_slip", f.first_slip, "s",
           "time of the first of these slips, from the session's start");
     }

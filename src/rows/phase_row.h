@@ -31,7 +31,8 @@ struct PhaseRow {
         v("slip", f.slip, "mm",
           "largest slip of a finger on the object; empty unless all held it throughout");
         v("weight_felt", f.weight_felt, "1",
-          "ratio of vertical handle forces to the object's weight; empty unless it is carried");
+          "ratio of vertical handle forces to the object's weight in the trial; empty unless it is "
+          "carried");
         v("mean_torque", f.mean_torque, "N*m",
           "mean over time of the largest torque on any handle; empty without orientation");
         v("peak_torque", f.peak_torque, "N*m", "largest torque on any handle");

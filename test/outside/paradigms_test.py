@@ -164,6 +164,42 @@ class Paradigms(unittest.TestCase):
                 self.assertAlmostEqual(of.x_mm, blur, delta=0.2 * blur + 1e-9)
                 self.assertAlmostEqual(of.y_mm, blur / 2, delta=0.1 * blur + 1e-9)
 
+    def test_the_weight_felt_and_the_friction_rubbed_are_those_of_the_trial(self):
+        """Weights and surfaces that change without a sign (Johansson and Westling 1984, 1988)."""
+        lifted = dh.run("experiments/first-trials.yaml", simulate=True, out=str(self.folder / "lifts"), progress=False)
+        felt = lifted.table("phases").weight_felt.dropna()
+        self.assertGreater(len(felt), 3)
+        np.testing.assert_allclose(felt, 0.99, atol=0.02)
+        for times, density in ((0.25, 1), (0.5, 2), (2, 1)):
+            with self.subTest(times=times, density=density):
+                pushed = self.run_task("title: Pushes\nscene: " + os.path.abspath("scenes/block-on-table.yaml") + f"""
+hand: {{ centre_mm: [0, 0, 20], aperture_mm: 110 }}
+task:
+  perturbations: [{{ name: other, body: {{ body: block, friction_scale: {times}, density_scale: {density} }} }}]
+  states:
+    - name: push
+      exits: [{{ when: time, after_s: 2, outcome: done }}]
+      simulated_hand: [{{ duration_s: 1.5, move_mm: [70, 0, 0] }}]
+  blocks: [{{ name: all, kind: perturbed, perturb: other }}]
+""", simulate=False)
+                rubbed = pushed.table("episodes").friction_ratio.dropna()
+                self.assertGreater(len(rubbed), 0)
+                np.testing.assert_allclose(rubbed, 1, atol=1e-3)
+
+    def test_a_window_of_time_has_the_same_ticks_in_each_trial(self):
+        """Corrections in fixed windows after a jump (Saunders and Knill 2003), after a drawn time of waiting."""
+        trials = self.run_task("title: Windows\n" + SPACE + """task:
+  draws: [{ name: wait_s, uniform: { from: 0.1, to: 0.3 } }]
+  states:
+    - { name: wait, exits: [{ when: time, after_s: wait, to: window }] }
+    - { name: window, exits: [{ when: time, after_s: 0.5, outcome: done }] }
+  custom_measures:
+    - { name: first_s, of: time_in_state, take: min, during: [window], when: 150 ms <= time_in_state < 300 ms }
+    - { name: last_s, of: time_in_state, take: max, during: [window], when: 150 ms <= time_in_state < 300 ms }
+  blocks: [{ name: all, repeats: 20 }]
+""").trials
+        self.assertEqual((set(trials.first_s), set(trials.last_s)), ({0.15}, {0.299}))
+
     def test_a_person_who_sees_only_the_end_of_a_reach_stays_in_the_room_and_its_error_counts(self):
         """The reach is cut off at the target's distance, as in most studies of end-point feedback."""
         session = self.run_task("title: End points\n" + SPACE + "task:\n" + REGIONS + """

@@ -313,8 +313,20 @@ def _axes_of_names(trials: pd.DataFrame) -> dict[str, str]:
     return {}
 
 
+def _has_catches(data: Data) -> bool:
+    trials = data.table("trials")
+    return "kind" in trials and bool((trials["kind"] == "catch").any())
+
+
 def _pooled(trials: pd.DataFrame, by: list[str]) -> str:
-    """A sentence for a caption if trials of several blocks are averaged."""
+    """A sentence for a caption if trials of several blocks, or of several perturbations in a block, are averaged."""
+    if {"block", "perturbation"} <= set(trials) and "perturbation" not in by:
+        known = trials.assign(perturbation=trials["perturbation"].fillna("none"))
+        mixed = known.groupby(list(dict.fromkeys([*by, "block"])), dropna=False)["perturbation"].transform("nunique") > 1
+        if mixed.any():
+            found = list(dict.fromkeys(known.loc[mixed, "perturbation"].astype(str)))
+            names = ", ".join(found) if len(found) <= 6 else f"{len(found)}"
+            return f" Trials of one block with different perturbations are averaged ({names}); population-measures.csv parts them."
     blocks = [str(block) for block in trials["block"].dropna().unique()] if "block" in trials and "block" not in by else []
     names = ", ".join(blocks) if len(blocks) <= 6 else f"{len(blocks)}"
     return f" All blocks are pooled ({names})." if len(blocks) > 1 else ""
@@ -354,6 +366,7 @@ def _plans_of(data: Data, table: str, measures: list[str], name: str, design: di
             title=f"{'Lifts' if table == 'lifts' else 'Measures'} by {by}{', continued' if first else ''}",
             caption=f"{dots}; marks are means over {over}{intervals(values)}. {counted(people, 'person', 'people')}, "
             f"{counted(len(trials), 'trial')}; practice, catch trials and repeated attempts are left out{channels}."
+            + (" Catch trials are in population-measures.csv." if people > 1 and _has_catches(data) else "")
             + (f" Averaged over {' and '.join(rest)}." if rest else "")
             + _pooled(trials, list(design.values()))
             + said_of_limits({name: words_of(name, units.get(name, "")) for name in some}),

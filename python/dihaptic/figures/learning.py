@@ -27,7 +27,7 @@ from .courses import (
     width_of_bins,
     with_texts,
 )
-from .data import Data, checked_list
+from .data import Data, checked_list, sitting_columns
 from .means import BY_T, intervals, means_with_intervals, said_of_limits, t_quantile, within_limits
 from .saving import Plan
 from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, drawing, faint, fit_names, legend_above, of_data, same_limits, wrapped
@@ -332,25 +332,26 @@ def draw_generalisation(points: pd.DataFrame, *, size: str = "one column", heigh
 # Courses of other measures
 
 
-def _of_session(data: Data, session: str, measures: list[str]) -> pd.DataFrame:
-    """The trials of a session of a study, or all, from the first to the last in which a measure was taken.
-
-    Rounds are not distinguished. Trials keep their numbers.
-    """
+def _of_session(data: Data, session: str, rounds: list[str] | None, measures: list[str]) -> pd.DataFrame:
+    """The trials of a session of a study and of rounds, or all, from the first to the last in which a measure was taken."""
     trials = data.table("trials")
     if session:
         trials = trials[trials["study_session"].astype(str) == session]
+    if rounds:
+        trials = trials[trials["round"].astype(str).isin(rounds)]
     table = numbered(trials.drop(columns=["round", "perturbation", "trial"], errors="ignore"))
     taken = table.loc[table[measures].notna().any(axis=1), "trial"]
     return table[table["trial"].between(taken.min(), taken.max())] if len(taken) else table.iloc[:0]
 
 
 @of_data
-def measures_over_trials(data: Data, *, measures: list[str], session: str = "", bin_trials: int = 1) -> pd.DataFrame:
+def measures_over_trials(
+    data: Data, *, measures: list[str], session: str = "", rounds: list[str] | None = None, bin_trials: int = 1
+) -> pd.DataFrame:
     """Measures of trials.csv over the trials of the session: each person's values, and means over people.
 
-    Rows are as in learning_curve(), and have the `measure` and its `unit`; `session` names a session of a study. With
-    `bin_trials`, each point stands for that many trials of a block. Raises NotThere.
+    Rows are as in learning_curve(), and have the `measure` and its `unit`; `session` names a session of a study, and `rounds`
+    those that are wanted, by default all; trials are counted from the first that is wanted. With `bin_trials`, each point stands for that many trials of a block. Raises NotThere.
 
     >>> from dihaptic import figures
     >>> points = figures.measures_over_trials(figures.read(lift_session), measures=["peak_grip_N"])
@@ -359,7 +360,7 @@ def measures_over_trials(data: Data, *, measures: list[str], session: str = "", 
     """
     for measure in checked_list("measures", measures):
         data.measure(measure)
-    table = _of_session(data, session, measures)
+    table = _of_session(data, session, rounds, measures)
     several = table["person"].nunique() > 1
     found = []
     for measure in measures:
@@ -579,13 +580,26 @@ def _plans_of_measures(data: Data) -> Iterator[Plan]:
     known = trials["study_session"].notna() if "study_session" in trials else pd.Series(False, index=trials.index)
     sessions = list(dict.fromkeys(trials[known]["study_session"].astype(str))) if known.any() else [""]
     for session in sessions:
-        plan = _plan_of_measures(data, session, "-" + re.sub(r"\W|_", "-", session.lower()) if len(sessions) > 1 else "")
-        if plan is not None:
-            yield plan
+        own = trials[trials["study_session"].astype(str) == session] if session else trials
+        for rounds in _rounds_apart(own, data.rounds):
+            names = [*([session] if len(sessions) > 1 else []), *rounds]
+            plan = _plan_of_measures(data, session, rounds, names)
+            if plan is not None:
+                yield plan
 
 
-def _plan_of_measures(data: Data, session: str, suffix: str) -> Plan | None:
-    table = _of_session(data, session, [measure.column for measure in data.measures])
+def _rounds_apart(trials: pd.DataFrame, rounds: list[str]) -> list[list[str]]:
+    """Each round, if people do them in different orders: a mean over people at a trial would then mix them. Otherwise [[]]."""
+    if "round" not in trials:
+        return [[]]
+    known = trials[trials["round"].notna()]
+    orders = {tuple(dict.fromkeys(own["round"].astype(str))) for _, own in known.groupby(sitting_columns(known), sort=False)}
+    return [[name] for name in rounds if any(name in order for order in orders)] if len(orders) > 1 else [[]]
+
+
+def _plan_of_measures(data: Data, session: str, rounds: list[str], names: list[str]) -> Plan | None:
+    suffix = "".join("-" + re.sub(r"\W|_", "-", name.lower()) for name in names)
+    table = _of_session(data, session, rounds, [measure.column for measure in data.measures])
     if table.empty:
         return None
     shown = table[~scattered(table)]
@@ -606,15 +620,17 @@ def _plan_of_measures(data: Data, session: str, suffix: str) -> Plan | None:
     values = table[[measure.column for measure in some]].notna().any(axis=1)
     return Plan(
         name=f"measures-over-trials{suffix}",
-        title="Measures over trials" + (f" ({session})" if suffix else ""),
+        title="Measures over trials" + (f" ({', '.join(names)})" if names else ""),
         caption=f"{_lines_in_words(table, width)}.{_left_out(table, len(some))}{_too_many(data)} "
         f"{counted(people, 'person', 'people')}, "
         f"{counted(int(values.sum()), 'trial')}; practice and all but the last attempt at a trial are left out.{omitted}"
+        + (" People do the rounds in different orders: trials are counted within this one." if rounds else "")
         + said_of_limits({measure.column: words_of(measure.column, measure.unit) for measure in some}),
         points=measures_over_trials,
         points_options={
             "measures": [measure.column for measure in some],
             **({"session": session} if session else {}),
+            **({"rounds": rounds} if rounds else {}),
             **({"bin_trials": width} if width > 1 else {}),
         },
         drawing=draw_measures_over_trials,

@@ -40,7 +40,7 @@ def within_limits(points: pd.DataFrame, measure: str) -> pd.DataFrame:
 def said_of_limits(measures: dict[str, str]) -> str:
     """A sentence for a caption on those measures, with their names in words, whose intervals may end at a limit."""
     names = [words for measure, words in measures.items() if measure in _LIMITS]
-    return f" Intervals of {' and '.join(names)} end where the measure does." if names else ""
+    return f" Intervals of {' and '.join(names)} are cut off at the limits of possible values." if names else ""
 
 
 def means_with_intervals(each: pd.DataFrame, by: list[str], **options: Any) -> pd.DataFrame:

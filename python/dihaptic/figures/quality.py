@@ -30,13 +30,14 @@ _HATCHES = ["", "////", "....", "\\\\\\\\", "xxxx", "----", "++++"]
 #: Names for the rest.
 _OTHER = "other outcomes"
 _REST = "other reasons"
-#: Events of the kind "limit" (events.csv) in which a device gave less force than was requested.
-_OF_FORCE = [
+#: Events of the kind "limit" (events.csv) in which a force was cut.
+OF_CUT_FORCE = [
     "a force or a torque was cut to the largest allowed",
-    "a force or a torque was kept from changing faster than allowed",
     "more than a device's peak force or torque was requested",
     "a force or a torque was cut to a level that the device's motors can sustain",
 ]
+#: Those in which a device gave less force than was requested.
+_OF_FORCE = [*OF_CUT_FORCE, "a force or a torque was kept from changing faster than allowed"]
 #: Limits in events.csv after which force is off.
 _OF_FAULTS = [
     "the simulation diverged: a force or a position was not a number",
@@ -536,7 +537,7 @@ def _plan_of_timing(data: Data, people: str) -> Plan:
         if points["late"].isna().all():
             text.append("These sessions did not run in real time, so that no tick can be late.")
         if points["limited"].notna().any():
-            text.append("Force limited: how often a device began to give less force than was asked for.")
+            text.append("Force limited: how often a device started to fall short of the requested force.")
         count = int((points["of"] == "ticks").sum())
         if count > _MOST_PEOPLE + 1:
             text.append(f"The {_MOST_PEOPLE} of {count} people with the most of these have rows of their own.")

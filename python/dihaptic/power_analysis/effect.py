@@ -13,6 +13,7 @@ import pandas as pd
 from ..errors import NotThere, error
 from ..figures.conditions import counting_trials
 from ..figures.data import SITTING, Data, sitting_columns
+from ..reports.results import listed
 
 #: The functions by which a term summarises the values of a person's trials.
 _STATISTICS: dict[str, Callable[[pd.Series], float]] = {
@@ -24,7 +25,7 @@ _OPERATORS: dict[type, Callable[[Any, Any], Any]] = {
     ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
 }  # fmt: skip
 #: Tables in which a column is looked for, in this order.
-_TABLES = ["trials", "lifts", "fits", "thresholds", "adaptation", "phases", "episodes"]
+_TABLES = ["trials", "lifts", "fits", "thresholds", "adaptation", "corrections", "phases", "episodes"]
 #: Maximum number of names, numbers and operators of an effect: about 25 terms.
 _MOST_PARTS = 200
 _EXAMPLE = "Write e.g. mean(movement_time_s, block=late) - mean(movement_time_s, block=early)."
@@ -35,8 +36,8 @@ class Effect:
 
     A term is `mean`, `median` or `sd` of a column of a table, over the rows that have the named values in other columns:
     `mean(static_grip_N, mass_g=200, surface="fine sandpaper")`. Terms and numbers are joined by + - * / and parentheses.
-    The column is taken from the first of these tables that has it: trials, lifts, fits, thresholds, adaptation, phases and
-    episodes; `table=` names another one. For trials and lifts, the last attempt at each trial is used, without practice and
+    The column is taken from the first of these tables that has it: trials, lifts, fits, thresholds, adaptation, corrections,
+    phases and episodes; `table=` names another one. For trials and lifts, the last attempt at each trial is used, without practice and
     catch trials, unless the term names `kind` or `attempt`. Terms of two groups make an effect between people, which is the
     left side minus the right side: `mean(late, group=a) - mean(late, group=b)`. Raises Error when it cannot be understood.
 
@@ -208,7 +209,7 @@ def _table_of(column: str, data: Data) -> str:
         if data.has(name) and column in data.table(name):
             return name
     known = dict.fromkeys(str(each) for name in _TABLES if data.has(name) for each in data.table(name))
-    raise NotThere(column, "is not a column of the tables of these people", list(known), "docs/tables.md lists them.")
+    raise NotThere(column, "is not a column of the tables of these people", list(known), f"It is looked for in {listed(_TABLES)}.")
 
 
 def _is_number(value: Any) -> bool:

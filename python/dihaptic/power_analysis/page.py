@@ -156,19 +156,20 @@ def write_page(result: Power, folder: Path) -> Path:
     page.figure(svg, "Power against the number of people", caption, "power", points.to_csv(index=False))
     caption = (
         "Power with its 95 % interval from the number of samples; its middle 95 % if the pool were other people of the "
-        "population. Of the estimates that the test finds: the share with the wrong sign (type S), and their mean size over the true "
-        "one (type M). Half width: of the confidence interval, the median. Then the power if people's spread were another."
-        + " Last, the powers that half, and nine in ten, of further laboratories exceed." * ("laboratory_50" in result.table)
+        "population. Among significant estimates: the share with the wrong sign (type S), and their mean size over the true one "
+        "(type M). Half width: of the confidence interval, the median. The next column gives the power if people's spread were 0.7 "
+        "or 1.5 times as large."
+        + " The last one gives the powers that half, and nine in ten, of further laboratories exceed." * ("laboratory_50" in result.table)
     )
     page.table(_shown(result, who), caption, keys=1)
     smallest = result.smallest.rename(columns={"n": "smallest n", "may_be": "upper end", "probably": "lower end"})
     smallest["power"] = [f"{100 * power:.0f} %" for power in smallest["power"]]
     caption = (
         "The smallest n with this power, and those at which the upper and the lower end of its interval from the number of "
-        "samples reach it. What the pool's size leaves open is more: see the column with other pools."
+        "samples reach it. The uncertainty due to the size of the pool is larger: see the column \"with other pools\"."
     )
     page.table(smallest.astype(object).where(smallest.notna(), None), caption)
-    page.heading("What this cannot know")
+    page.heading("What these numbers cannot tell you")
     for text in [_LABORATORIES[result.spread_of_laboratories is not None], *_NOT_KNOWN]:
         page.text(text)
     return write(folder / "power.html", page.html().encode(errors="replace"))

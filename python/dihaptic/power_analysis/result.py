@@ -257,8 +257,8 @@ class Power:
         size = f", Cohen's d = {self.standardised:.2f}"
         if self.smallest_effect is not None:
             size = (
-                f". Sought is the smallest effect of interest, {self.smallest_effect:.3g}{size}, among people who differ from "
-                "each other as these do"
+                f". The effect to be detected is the smallest effect of interest, {self.smallest_effect:.3g}{size}, among people "
+                "who differ from each other as these do"
             )
         text = (
             f"The effect {self.effect.text} was computed from {who} (population {population}, dihaptic {version()}): "

@@ -11,6 +11,7 @@ from ..figures import fitts, psychophysics
 from ..figures.conditions import averaged_over, axes_of_design, counting_trials, each_in_conditions
 from ..figures.data import WINDOW, Data, is_of_index, sitting_columns
 from ..figures.means import means_with_intervals, within_limits
+from ..figures.quality import OF_CUT_FORCE
 from ..figures.words import counted, label, level, with_unit, words_of
 from .differences import differences_in_words
 from .page import in_short
@@ -28,6 +29,8 @@ _MOST_MEANS = 6
 _APART = ("group", "round", "study_session", "perturbation")
 #: A reader is warned if more than this share of the trials was repeated.
 _MANY_REPEATED = 0.1
+#: A reader is warned if forces were limited in at least this share of the attempts.
+_MANY_LIMITED = 0.05
 
 
 def results_of(data: Data) -> list[str]:
@@ -51,8 +54,7 @@ def warnings_of(data: Data, told: dict[str, Any]) -> list[str]:
             f"These people come from {several} laboratories. Means and intervals are over people, as if they came from one: a "
             "further laboratory may lie outside the intervals."
         )
-    if text := _missed_solves(data):
-        out.append(text)
+    out += [text for text in (_missed_solves(data), _limited_forces(data)) if text]
     if data.has("adaptation") and (text := shared_windows(data.table("adaptation"))):
         out.append(text)
     trials, repeated = _repeated(data)
@@ -288,6 +290,22 @@ def _missed_solves(data: Data) -> str:
     return (
         f"In {missed} ticks ({share}{ticks}) the contact solver missed its tolerance: {', '.join(sorted(people)[:12])}"
         f"{' and others' if len(people) > 12 else ''}. Look at the forces of these sessions before you use them."
+    )
+
+
+def _limited_forces(data: Data) -> str:
+    """A sentence about trials in which a device gave less force than was asked for, if these are many."""
+    limited = 0
+    for sitting in data.sittings:
+        if "events" in sitting.session.tables:
+            events = sitting.session.table("events")
+            limited += events.loc[(events["event"] == "limit") & events["detail"].isin(OF_CUT_FORCE), "trial"].nunique()
+    trials = len(data.table("trials")) if data.has("trials") else 0
+    if not trials or limited < _MANY_LIMITED * trials:
+        return ""
+    return (
+        f"In {limited} of {trials} attempts a device gave less force than was asked for: less was felt there than the contact "
+        "forces, such as normal_force, which are the model's. Quality of the data shows in which sessions."
     )
 
 

@@ -15,7 +15,7 @@ from ..figures.conditions import axes_of_design, counting_trials, measures_of_li
 from ..figures.data import Data, with_design
 from ..figures.drawing import Drawn, draw_data
 from ..figures.learning import learning_windows
-from ..figures.lifts import previous_weight
+from ..figures.lifts import previous_weight, why_not_drawn
 from ..figures.means import intervals, means_with_intervals, said_of_limits
 from ..figures.quality import missing_values
 from ..figures.words import counted, in_print, label, level, words_of
@@ -89,7 +89,7 @@ def _result(page: Page, data: Data, told: dict[str, Any]) -> None:
 def _methods(page: Page, data: Data, told: dict[str, Any]) -> None:
     """The methods in words, and the perturbations."""
     page.heading("Methods in words")
-    page.text("A start for a paper's methods; for its results, start from the sentences under Result.", "caption")
+    page.text("A draft of a methods section. For the results section, begin with the sentences under Result.", "caption")
     for text in methods_of(data, told):
         page.text(text)
     table = perturbations_table(data, told)
@@ -262,6 +262,8 @@ def _lifts(page: Page, data: Data) -> None:
         return
     lifts = data.table("lifts")
     if "lift" in lifts and not (lifts["lift"] == "complete").any():
+        if lifts["lift_off_s"].notna().any():
+            page.text(why_not_drawn(data), "caption")
         return  # another kind of task: objects that are pushed, or carried from the start
     own = with_design(data.table("trials"), lifts, data.factors)
     design = [name for name in ("study_session", "round", "block", "kind", "condition") if name in own]
@@ -280,9 +282,11 @@ def _lifts(page: Page, data: Data) -> None:
     _means(page, data, measures_of_lifts(data), "lifts")
     over = "Medians over lifts" if len(data.people) == 1 else "Means over people of each person's median"
     table = pd.DataFrame(rows).set_index("median of").T.rename_axis(columns=None).reset_index(names="median of")
-    caption = f"{over}, practice and catch trials included; an incomplete lift is included in the figures that it has."
+    caption = f"{over}, practice and catch trials included; an incomplete lift counts toward every measure that could be computed for it."
     if "safety margin" in list(table["median of"]):
         caption += " Safety margin: the share of the static grip that exceeds the least grip without slip."
+    if why := why_not_drawn(data):
+        page.text(why, "caption")
     page.table(table, caption, keys=1)
     _previous_weight(page, data)
 

@@ -340,28 +340,30 @@ double Joints::ask_of_coordinate(size_t i, double q, double q_now, double h,
                   spec.damping * joint.properties.damping, joint.inverse_mass, states_[i].velocity,
                   h, kSpring, row);
     ask_of_motor(joint, q, h, kMotor, row);
+    if (!spec.low || !spec.high || *spec.low != *spec.high)
+        return ask_of_stop(spec, q, q_now, h, kStop, row);
+    row.low[kStop] = -kNone;
+    row.high[kStop] = kNone;
+    row.compliance[kStop] = 1 / (h * h * (spec.slides() ? kStiffness : kTurnStiffness));
     const double pull = spec.slides() ? kPull : kTurnPull;
-    if (spec.low && spec.high && *spec.low == *spec.high) {
-        row.low[kStop] = -kNone;
-        row.high[kStop] = kNone;
-        const double bias = speed_to_stop(q - *spec.low, q_now - *spec.low, h, pull);
-        const double change = std::abs(bias - row.bias[kStop]);
-        row.bias[kStop] = bias;
-        row.compliance[kStop] = 1 / (h * h * (spec.slides() ? kStiffness : kTurnStiffness));
-        return change;
-    }
+    const double bias = speed_to_stop(q - *spec.low, q_now - *spec.low, h, pull);
+    return std::abs(bias - std::exchange(row.bias[kStop], bias));
+}
+
+double Joints::ask_of_stop(const scene::Joint& spec, double q, double q_now, double h, int k,
+                           ProblemJoint& row) noexcept {
+    const double pull = spec.slides() ? kPull : kTurnPull;
     const double above = spec.low ? q - *spec.low : kNone;
     const double below = spec.high ? *spec.high - q : kNone;
-    row.low[kStop] = below < above ? -kNone : 0;
-    row.high[kStop] = above <= below && spec.low ? kNone : 0;
+    row.low[k] = below < above ? -kNone : 0;
+    row.high[k] = above <= below && spec.low ? kNone : 0;
     // the distance to the stop, or what must be undone beyond it
     const double gap = std::min(above, below);
     const double gap_now = below < above ? *spec.high - q_now : spec.low ? q_now - *spec.low : 0;
     const double speed = gap > 0 ? gap / h : speed_to_stop(gap, std::min(gap_now, 0.0), h, pull);
     const double bias = below < above ? -speed : spec.low ? speed : 0;
-    const double change = gap < -pull * h ? std::abs(bias - row.bias[kStop]) : 0;
-    row.bias[kStop] = bias;
-    return change;
+    const double change = std::abs(bias - std::exchange(row.bias[k], bias));
+    return gap < -pull * h ? change : 0;
 }
 
 void Joints::ask_of_motor(const Joint& joint, double q, double h, int k,

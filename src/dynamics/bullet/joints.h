@@ -149,6 +149,8 @@ class Joints {
     double ask(size_t i, double h, const contact::Vec6& v_a, const contact::Vec6& v_b) noexcept;
     double ask_of_coordinate(size_t i, double q, double q_now, double h,
                              contact::ProblemJoint& row) const noexcept;
+    static double ask_of_stop(const scene::Joint& spec, double q, double q_now, double h, int k,
+                              contact::ProblemJoint& row) noexcept;
     /// Copies a joint's rows to the problem.
     static void tell(const Joint& joint, contact::ContactProblem& problem) noexcept;
     /// Computes the rows of a bushing whose gaps would be `then` after a step at these velocities.

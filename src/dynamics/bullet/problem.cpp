@@ -53,6 +53,13 @@ double mean_height(const btPersistentManifold& manifold) {
     return sum / std::max(1, manifold.getNumContacts());
 }
 
+/// The distance of the points at which friction turns the two bodies. If they touch at one point,
+/// each is turned at its own surface, where the other one arrives in the step, so that a ball that
+/// lands gets its spin, whatever gap remains. Flat faces share a plane (mean_height).
+double apart(const btPersistentManifold& manifold, double gap) {
+    return manifold.getNumContacts() == 1 ? std::max(gap, 0.0) : 0;
+}
+
 /// Makes a contact soft: with x the gap, the spring k and the damper c hold at the end of the step,
 ///
 ///     r / h = -k (x + h u) - c u    or    u + gamma r + bias = 0,    gamma = 1 / (h (c + h k))
@@ -177,15 +184,11 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
             out.a = index(a);
             out.b = index(b);
             const Vec3 n_W = from_bullet(point.m_normalWorldOnB);
-            Vec3 p_WC = middle(point);
-            p_WC += (height - n_W.dot(p_WC)) * n_W;
+            const Vec3 p_WC = middle(point) + (height - n_W.dot(middle(point))) * n_W;
             carried(point).acts_at_W = p_WC;
             const double gap = gap_of(point);
-            // Each body is turned by friction at its own surface, where the other one arrives in
-            // the step: a ball that lands, rolls. Flat faces share a plane instead (mean_height).
             out.R_WC = contact_frame(normal_of(point));
-            const bool meets = manifold->getNumContacts() == 1 && gap > 0;
-            carried(point).apart = meets ? gap : 0;
+            carried(point).apart = apart(*manifold, gap);
             const Vec3 to_own = carried(point).apart / 2 * out.R_WC.col(0);
             out.p_AC_W = p_WC - to_own - from_bullet(a.getWorldTransform().getOrigin());
             out.p_BC_W = p_WC + to_own - from_bullet(b.getWorldTransform().getOrigin());

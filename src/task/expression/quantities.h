@@ -21,6 +21,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -125,6 +126,13 @@ class Quantities {
     std::optional<int> rate(int slot);
     static constexpr size_t kRateTicks = 10;
 
+    /// Sets the times since the state and the trial began [s], rounded to nanoseconds: the
+    /// differences of sums of ticks have rounding errors, and `time_in_state < 0.3 s` must select
+    /// the same ticks in each trial.
+    void set_times(double in_state, double in_trial) noexcept {
+        set(kTimeInState, std::round(in_state * 1e9) / 1e9);
+        set(kTimeInTrial, std::round(in_trial * 1e9) / 1e9);
+    }
     static constexpr int kTimeInState = 0;
     static constexpr int kTimeInTrial = 1;
     static constexpr int kTrial = 2;

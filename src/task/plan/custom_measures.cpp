@@ -107,8 +107,7 @@ void CustomMeasures::add(const frame::Frame& frame) {
     numbers_.follow(frame.trial, frame.task.attempt, frame.task.variables, frame.phase - 1);
     numbers_.set_answers(frame.task.variables);
     Quantities& quantities = numbers_.quantities();
-    quantities.set(Quantities::kTimeInState, now - entered_);
-    quantities.set(Quantities::kTimeInTrial, now - began_);
+    quantities.set_times(now - entered_, now - began_);
     handles_of(frame, handles_);
     quantities.update(frame, handles_);
     for (const int body : plan_.task.stays.indices) {

@@ -10,11 +10,6 @@ constexpr double kNever = -1;
 // initial time during which a form ignores input, since nobody can have read it yet [s]
 constexpr double kUnread = 0.2;
 
-/// Rounds a time to nanoseconds, to remove the rounding errors of sums of ticks.
-double exact(double time) noexcept {
-    return std::round(time * 1e9) / 1e9;
-}
-
 }  // namespace
 
 TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
@@ -177,8 +172,7 @@ const TaskPlan::Transition* TaskDirector::transition_taken(const frame::Frame& l
                                                            double now) noexcept {
     const auto& transitions = planned().transitions;
     Quantities& quantities = numbers_.quantities();
-    quantities.set(Quantities::kTimeInState, exact(now - current_.entered));
-    quantities.set(Quantities::kTimeInTrial, exact(now - current_.trial_began));
+    quantities.set_times(now - current_.entered, now - current_.trial_began);
     for (size_t i = 0; i < transitions.size(); ++i) {
         const TaskPlan::Transition& transition = transitions[i];
         // half a tick of tolerance allows for rounding errors in sums of ticks

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+import pandas as pd
+
 from ..data import ASIDE, Data
 from ..saving import Plan
 from .curves import draw_lift_curves, lift_curves, plan_of_curves
@@ -16,7 +18,7 @@ from .weights import previous_weight
 
 __all__ = [
     "HEADING", "draw_grip_against_load", "draw_lift_curves", "draw_lift_phases", "draw_successive_lifts", "grip_against_load",
-    "lift_curves", "lift_phases", "plans", "previous_weight", "successive_lifts",
+    "lift_curves", "lift_phases", "plans", "previous_weight", "successive_lifts", "why_not_drawn",
 ]  # fmt: skip
 
 #: Heading above these figures in a report.
@@ -30,7 +32,7 @@ def plans(data: Data) -> Iterator[Plan]:
     catch = shows_catches(data)
     frame = all_lifts(data)
     kept = counting(frame, catch)
-    if kept.empty or 4 * len(kept) < len(frame[~frame["kind"].isin(ASIDE)]):
+    if few_are_complete(frame, kept):
         return  # another kind of task: objects that are pushed, or carried from the start
     colour, panel = design(data, kept)
     options: dict[str, Any] = {**({"colour": colour} if colour else {}), **({"catch": True} if catch else {})}
@@ -40,6 +42,22 @@ def plans(data: Data) -> Iterator[Plan]:
     if len(kept) > 1:
         rows = [*colour, *([panel] if panel else [])]
         yield plan_of_phases(data, frame, kept, options, rows, catch)
+
+
+def few_are_complete(frame: pd.DataFrame, kept: pd.DataFrame) -> bool:
+    """Whether so few lifts, `kept` of those in `frame`, are complete that none is drawn."""
+    return kept.empty or 4 * len(kept) < len(frame[~frame["kind"].isin(ASIDE)])
+
+
+def why_not_drawn(data: Data) -> str:
+    """A sentence on lifts of which no figure is drawn, since most are incomplete; "" if they are drawn."""
+    frame = all_lifts(data)
+    kept = counting(frame, shows_catches(data))
+    if not few_are_complete(frame, kept):
+        return ""
+    reasons = frame.loc[frame["lift"] != "complete", "lift"].value_counts()
+    told = ", ".join(f"{count} {reason}" for reason, count in reasons.items())
+    return f"Too few of {len(frame)} lifts are complete to draw their courses, grip against load and phases: {told}."
 
 
 def _plans_of_courses(data: Data, options: dict[str, Any], panel: str, legend: str, catch: bool) -> Iterator[Plan]:
