@@ -165,7 +165,8 @@ class Psychophysics(Drawn):
             turns = own[own.of == "reversal"].level
             self.assertEqual(len(turns), row.reversals)
             if len(turns):
-                np.testing.assert_allclose(turns.mean(), row.mean_of_reversals, rtol=1e-8)
+                even = turns.iloc[len(turns) % 2 :]  # as many peaks as valleys
+                np.testing.assert_allclose(even.mean(), row.mean_of_reversals, rtol=1e-8)
         trials = pd.read_csv(self.many / "trials.csv")
         trials = trials[trials.outcome.isin(["left", "right"]) & (trials.procedure == "quest")]
         answers = points[(points.procedure == "quest") & (points.of == "answer")]

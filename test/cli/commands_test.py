@@ -94,7 +94,7 @@ class Commands(unittest.TestCase):
             result = dihaptic("fit", "two_rate", file, "--json")
             self.assertEqual(result.returncode, 0, result.stderr)
             fit = json.loads(result.stdout)
-            self.assertEqual(sorted(fit), sorted([*truth, "sse", "n"]))
+            self.assertEqual(sorted(fit), sorted([*truth, "intervals_95", "n", "note", "sse"]))
             for name, value in truth.items():
                 self.assertAlmostEqual(fit[name], value, places=4)
             self.assertLess(fit["sse"], 1e-8)
