@@ -49,6 +49,20 @@ void add_contacts(GraspTrace::Sample& sample, const frame::Frame& frame, int obj
     }
 }
 
+/// Adds the factors on the properties of the object and of its support, which must be known.
+void add_properties(GraspTrace::Sample& sample, const frame::Frame& frame, int object) {
+    sample.friction_scale = frame.friction_scale;
+    for (const frame::PropertiesFrame& properties : frame.task.properties) {
+        if (properties.body == object) {
+            sample.friction_scale *= properties.friction_scale;
+            sample.mass_scale = properties.mass_scale;
+            sample.weight_scale = properties.weight_scale;
+        } else if (sample.support >= 0 && properties.body == sample.support) {
+            sample.support_friction_scale = properties.friction_scale;
+        }
+    }
+}
+
 }  // namespace
 
 void GraspTrace::add(const frame::Frame& frame) {
@@ -68,13 +82,6 @@ void GraspTrace::add(const frame::Frame& frame) {
     sample.touching.assign(n, false);
     sample.normal_force.assign(n, 0);
     sample.f_tangential_W.assign(n, Vec3::Zero());
-    sample.friction_scale = frame.friction_scale;
-    for (const frame::PropertiesFrame& properties : frame.task.properties) {
-        if (properties.body != object_) continue;
-        sample.friction_scale *= properties.friction_scale;
-        sample.mass_scale = properties.mass_scale;
-        sample.weight_scale = properties.weight_scale;
-    }
     sample.torque = frame.turns.empty() ? kUnmeasured : 0;
     for (const frame::TurnFrame& turn : frame.turns)
         sample.torque = std::max(sample.torque, turn.t_sent_W.norm());
@@ -90,10 +97,7 @@ void GraspTrace::add(const frame::Frame& frame) {
         sample.f_sent_W.push_back(finger.f_sent_W);
     }
     add_contacts(sample, frame, object_);
-    for (const frame::PropertiesFrame& properties : frame.task.properties) {
-        if (sample.support >= 0 && properties.body == sample.support)
-            sample.support_friction_scale = properties.friction_scale;
-    }
+    add_properties(sample, frame, object_);
     // a vector that grows moves its samples, of more than half a kilobyte each, again and again
     if (samples_.capacity() == 0) samples_.reserve(kUsualSamples);
     samples_.push_back(std::move(sample));
@@ -246,21 +250,9 @@ double GraspTrace::weight_felt(Range range) const {
     return sum / static_cast<double>(range.size());
 }
 
-double GraspTrace::mean_weight_scale(Range range) const {
+double GraspTrace::mean(Range range, double Sample::*of) const {
     double sum = 0;
-    for (size_t i = range.first; i < range.last; ++i) sum += samples_[i].weight_scale;
-    return sum / static_cast<double>(range.size());
-}
-
-double GraspTrace::mean_grip(Range range) const {
-    double sum = 0;
-    for (size_t i = range.first; i < range.last; ++i) sum += samples_[i].grip;
-    return sum / static_cast<double>(range.size());
-}
-
-double GraspTrace::mean_load(Range range) const {
-    double sum = 0;
-    for (size_t i = range.first; i < range.last; ++i) sum += samples_[i].load;
+    for (size_t i = range.first; i < range.last; ++i) sum += samples_[i].*of;
     return sum / static_cast<double>(range.size());
 }
 

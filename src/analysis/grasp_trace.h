@@ -51,10 +51,11 @@ class GraspTrace {
         // contact force between each finger and the object
         PerFinger<double> normal_force;  ///< [N]
         PerFinger<Vec3> f_tangential_W;  ///< tangential force on the finger [N]
-        double friction_scale = 1;  ///< factor on the object's friction coefficients in the scene
-        double support_friction_scale = 1;  ///< factor on those of the support
-        Vec3 mass_scale = Vec3::Ones();     ///< factors on the object's inertia
-        double weight_scale = 1;            ///< factor on the object's weight
+        // factors on properties in the scene
+        double friction_scale = 1;          ///< on the object's coefficients of friction
+        double support_friction_scale = 1;  ///< on those of the support
+        Vec3 mass_scale = Vec3::Ones();     ///< on the object's inertia, along each axis of W
+        double weight_scale = 1;            ///< on the object's weight
         bool resumed = false;               ///< whether the session continued after a pause
 
         /// Whether any finger presses on the object.
@@ -94,10 +95,9 @@ class GraspTrace {
     double force_above_5_hz(Range range) const;
     /// Mean of the downward forces on the handles, summed over the fingers [N].
     double weight_felt(Range range) const;
-    /// Mean of the factor on the object's weight.
-    double mean_weight_scale(Range range) const;
-    double mean_grip(Range range) const;
-    double mean_load(Range range) const;
+    double mean_weight_scale(Range range) const { return mean(range, &Sample::weight_scale); }
+    double mean_grip(Range range) const { return mean(range, &Sample::grip); }
+    double mean_load(Range range) const { return mean(range, &Sample::load); }
     double peak_grip(Range range) const;
     /// Largest force sent to any handle, and the largest of the mean forces of the fingers [N].
     double peak_force(Range range) const;
@@ -108,6 +108,8 @@ class GraspTrace {
     double mean_torque(Range range) const;
 
   private:
+    double mean(Range range, double Sample::*of) const;
+
     int object_;
     double tick_;
     std::vector<Sample> samples_;

@@ -29,6 +29,12 @@ bool uses(const SessionSpec& session, std::string_view placeholder) {
     return session.experiment.find(placeholder) != std::string::npos;
 }
 
+/// The name of a session's experiment for a group and a condition.
+std::string named_for(const SessionSpec& session, const std::string& group,
+                      const std::string& condition) {
+    return replaced(replaced(session.experiment, kGroup, group), kCondition, condition);
+}
+
 /// Whether a word contains only letters, digits and the characters in `others`, and can be part of
 /// a file name.
 bool is_word(const std::string& word, const char* others) {
@@ -270,8 +276,7 @@ std::string StudyFile::condition_of(size_t index, const std::string& group, int 
 }
 
 std::string StudyFile::experiment_name(size_t index, const std::string& group, int number) const {
-    const std::string name = replaced(sessions[index].experiment, kGroup, group);
-    return replaced(name, kCondition, condition_of(index, group, number));
+    return named_for(sessions[index], group, condition_of(index, group, number));
 }
 
 std::string StudyFile::experiment_of(size_t index, const std::string& group, int number) const {
@@ -283,8 +288,7 @@ std::vector<std::string> StudyFile::experiments_of(const SessionSpec& session,
     std::vector<std::string> out;
     const std::vector<std::string> one{""};
     for (const std::string& condition : uses(session, kCondition) ? conditions : one)
-        out.push_back(
-            replaced(replaced(session.experiment, kGroup, group.name), kCondition, condition));
+        out.push_back(named_for(session, group.name, condition));
     return out;
 }
 

@@ -1,7 +1,9 @@
 #include "view/isosurface.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace dihaptic::view {
 namespace {

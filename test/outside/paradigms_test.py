@@ -77,6 +77,21 @@ class Paradigms(unittest.TestCase):
     def run_task(self, text, **options):
         return dh.run(self.write(text), out=str(self.folder / "out"), progress=False, **(options or {"simulate": True}))
 
+    def perturbed_reaches(self, factor, perturbation, *measures):
+        """The trials of reaches of 2 s, three at each level of the factor, all with this perturbation."""
+        return self.run_task("title: Perturbed\n" + SPACE + "task:\n" + REGIONS + f"""
+  cross: [{factor}]
+  perturbations: [{{ name: perturbed, during: [reach], {perturbation} }}]
+  states:
+{BACK}
+    - name: reach
+      show: [target]
+      exits: [{{ when: time, after_s: 2, outcome: reached }}]
+      simulated_hand: [{{ duration_s: 0.5, reach: target }}]
+  custom_measures: [{', '.join(measures)}]
+  blocks: [{{ name: all, kind: perturbed, perturb: perturbed, repeats: 3 }}]
+""").trials
+
     def test_the_end_of_a_reach_may_be_shown_later(self):
         """Terminal feedback through a prism, up to 2 s late (Kitazawa, Kohno and Uka 1995)."""
         session = self.run_task("title: Late feedback\n" + SPACE + "task:\n" + REGIONS + """
@@ -118,47 +133,25 @@ class Paradigms(unittest.TestCase):
 
     def test_what_is_seen_may_jump_early_or_late_in_a_reach(self):
         """Jumps at three times of a movement, and corrections that depend on them (Liu and Todorov 2007)."""
-        session = self.run_task("title: Jumps\n" + SPACE + "task:\n" + REGIONS + """
-  cross: [{ factor: jump_ms, levels: [100, 200, 300] }]
-  perturbations:
-    - name: jump
-      during: [reach]
-      profile: { delay_ms: jump, rise_ms: jump / 4 }
-      visual: { moves: [proxies], shift_mm: [20, 0, 0] }
-  states:
-""" + BACK + """
-    - name: reach
-      show: [target]
-      exits: [{ when: time, after_s: 0.8, outcome: reached }]
-      simulated_hand: [{ duration_s: 0.5, reach: target }]
-  custom_measures:
-    - { name: began_ms, of: time_in_state, take: first, during: [reach], when: index.shown.x - index.x > 0.01 mm }
-    - { name: half_ms, of: time_in_state, take: first, during: [reach], when: index.shown.x - index.x > 10 mm }
-  blocks: [{ name: all, kind: perturbed, perturb: jump, repeats: 2 }]
-""")
-        trials = session.trials
-        self.assertEqual(sorted(trials.jump_ms), [100, 100, 200, 200, 300, 300])
+        trials = self.perturbed_reaches(
+            "{ factor: jump_ms, levels: [100, 200, 300] }",
+            "profile: { delay_ms: jump, rise_ms: jump / 4 }, visual: { moves: [proxies], shift_mm: [20, 0, 0] }",
+            "{ name: began_ms, of: time_in_state, take: first, during: [reach], when: index.shown.x - index.x > 0.01 mm }",
+            "{ name: half_ms, of: time_in_state, take: first, during: [reach], when: index.shown.x - index.x > 10 mm }",
+        )
+        self.assertEqual(sorted(trials.jump_ms), [100] * 3 + [200] * 3 + [300] * 3)
         np.testing.assert_allclose(trials.began_ms, trials.jump_ms, atol=1.5)
         np.testing.assert_allclose(trials.half_ms, 1.125 * trials.jump_ms, atol=1.5)
 
     def test_a_cursor_may_be_as_uncertain_as_the_trial_says(self):
         """Sensory noise that differs from trial to trial (Koerding and Wolpert 2004; van Beers 2012)."""
-        session = self.run_task("title: Noise\n" + SPACE + "task:\n" + REGIONS + """
-  cross: [{ factor: blur_mm, levels: [0, 4, 16] }]
-  perturbations:
-    - { name: blurred, during: [reach], visual: { moves: [proxies], noise_mm: [blur, blur / 2, 0] } }
-  states:
-""" + BACK + """
-    - name: reach
-      show: [target]
-      exits: [{ when: time, after_s: 2, outcome: reached }]
-      simulated_hand: [{ duration_s: 0.5, reach: target }]
-  custom_measures:
-    - { name: x_mm, of: index.shown.x - index.x, take: sd, during: [reach] }
-    - { name: y_mm, of: index.shown.y - index.y, take: sd, during: [reach] }
-  blocks: [{ name: all, kind: perturbed, perturb: blurred, repeats: 3 }]
-""")
-        means = session.trials.groupby("blur_mm")[["x_mm", "y_mm"]].mean()
+        trials = self.perturbed_reaches(
+            "{ factor: blur_mm, levels: [0, 4, 16] }",
+            "visual: { moves: [proxies], noise_mm: [blur, blur / 2, 0] }",
+            "{ name: x_mm, of: index.shown.x - index.x, take: sd, during: [reach] }",
+            "{ name: y_mm, of: index.shown.y - index.y, take: sd, during: [reach] }",
+        )
+        means = trials.groupby("blur_mm")[["x_mm", "y_mm"]].mean()
         for blur, of in means.iterrows():
             with self.subTest(blur=blur):
                 self.assertAlmostEqual(of.x_mm, blur, delta=0.2 * blur + 1e-9)

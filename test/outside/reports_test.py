@@ -50,6 +50,37 @@ class Reports(unittest.TestCase):
         cls.figures = cls.people / "figures"
         cls.name = next(cls.figures.glob("measures-by-distance*.csv")).stem
 
+    def test_rounds_in_different_orders_are_not_mixed_and_forces_that_were_not_felt_are_told(self):
+        """Shergill, Bays, Frith and Wolpert 2003: half of the people begin with the one way, half with the other."""
+        (self.folder / "rounds.yaml").write_text(f"""title: Rounds
+scene: {os.getcwd()}/scenes/reach-in-space.yaml
+hand: {{ centre_mm: [0, 0, 120] }}
+task:
+  draws: [{{ name: extra, uniform: {{ from: 0, to: 1 }} }}]
+  perturbations: [{{ name: strong, loads: [{{ kind: constant, on: index, force_N: [0, 0, 12] }}] }}]
+  states: [{{ name: wait, exits: [{{ when: time, after_s: 0.1, outcome: done }}] }}]
+  feedback_s: 0
+  round_order: counterbalanced
+  rounds: [{{ name: low, factors: {{ level: 1 }} }}, {{ name: high, factors: {{ level: 11 }} }}]
+  custom_measures: [{{ name: score_mm, of: index.z + 1 m * (level + extra), take: last }}]
+  blocks:
+    - {{ name: quiet, repeats: 8 }}
+    - {{ name: pushed, kind: perturbed, perturb: strong, repeats: 4 }}
+""")
+        out = self.folder / "rounds"
+        for words in (["rehearse", self.folder / "rounds.yaml", "--people", "4", "--out", out], ["report", out]):
+            done = dihaptic(*map(str, words))
+            self.assertEqual(done.returncode, 0, done.stderr)
+        page = (out / "report.html").read_text()
+        self.assertIn("In 32 of 96 trials a device gave less force than was asked for", page)
+        self.assertIn("trials are counted within this one, and those outside the rounds are not drawn", page)
+        self.assertFalse((out / "figures/measures-over-trials.csv").exists())
+        for name, level in (("low", 1), ("high", 11)):
+            points = pd.read_csv(out / f"figures/measures-over-trials-{name}.csv")
+            means = points[points.of == "mean"]
+            self.assertEqual(means.trial.tolist(), list(range(1, 13)))
+            self.assertTrue(means.value.between(1000 * level, 1000 * level + 1500).all())
+
     def test_a_pdf_has_no_fonts_that_journals_refuse(self):
         for file in self.figures.glob("*.pdf"):
             content = file.read_bytes()

@@ -320,16 +320,20 @@ def _has_catches(data: Data) -> bool:
 
 def _pooled(trials: pd.DataFrame, by: list[str]) -> str:
     """A sentence for a caption if trials of several blocks, or of several perturbations in a block, are averaged."""
+    told = ""
     if {"block", "perturbation"} <= set(trials) and "perturbation" not in by:
         known = trials.assign(perturbation=trials["perturbation"].fillna("none"))
         mixed = known.groupby(list(dict.fromkeys([*by, "block"])), dropna=False)["perturbation"].transform("nunique") > 1
         if mixed.any():
             found = list(dict.fromkeys(known.loc[mixed, "perturbation"].astype(str)))
-            names = ", ".join(found) if len(found) <= 6 else f"{len(found)}"
-            return f" Trials of one block with different perturbations are averaged ({names}); population-measures.csv parts them."
+            told = f" Trials of one block with different perturbations are averaged ({_few(found)}); population-measures.csv has each."
     blocks = [str(block) for block in trials["block"].dropna().unique()] if "block" in trials and "block" not in by else []
-    names = ", ".join(blocks) if len(blocks) <= 6 else f"{len(blocks)}"
-    return f" All blocks are pooled ({names})." if len(blocks) > 1 else ""
+    return told + (f" All blocks are pooled ({_few(blocks)})." if len(blocks) > 1 else "")
+
+
+def _few(names: list[str]) -> str:
+    """The names, or their number if they are many."""
+    return ", ".join(names) if len(names) <= 6 else f"{len(names)}"
 
 
 def _plans_of(data: Data, table: str, measures: list[str], name: str, design: dict[str, str]) -> Iterator[Plan]:

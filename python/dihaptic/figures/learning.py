@@ -351,7 +351,8 @@ def measures_over_trials(
     """Measures of trials.csv over the trials of the session: each person's values, and means over people.
 
     Rows are as in learning_curve(), and have the `measure` and its `unit`; `session` names a session of a study, and `rounds`
-    those that are wanted, by default all; trials are counted from the first that is wanted. With `bin_trials`, each point stands for that many trials of a block. Raises NotThere.
+    those that are wanted, by default all; trials are counted from the first that is wanted. With `bin_trials`, each point
+    stands for that many trials of a block. Raises NotThere.
 
     >>> from dihaptic import figures
     >>> points = figures.measures_over_trials(figures.read(lift_session), measures=["peak_grip_N"])
@@ -588,6 +589,12 @@ def _plans_of_measures(data: Data) -> Iterator[Plan]:
                 yield plan
 
 
+#: What is said of a figure of one round.
+_OF_ONE_ROUND = (
+    " People do the rounds in different orders: trials are counted within this one, and those outside the rounds are not drawn."
+)
+
+
 def _rounds_apart(trials: pd.DataFrame, rounds: list[str]) -> list[list[str]]:
     """Each round, if people do them in different orders: a mean over people at a trial would then mix them. Otherwise [[]]."""
     if "round" not in trials:
@@ -624,7 +631,7 @@ def _plan_of_measures(data: Data, session: str, rounds: list[str], names: list[s
         caption=f"{_lines_in_words(table, width)}.{_left_out(table, len(some))}{_too_many(data)} "
         f"{counted(people, 'person', 'people')}, "
         f"{counted(int(values.sum()), 'trial')}; practice and all but the last attempt at a trial are left out.{omitted}"
-        + (" People do the rounds in different orders: trials are counted within this one." if rounds else "")
+        + (_OF_ONE_ROUND if rounds else "")
         + said_of_limits({measure.column: words_of(measure.column, measure.unit) for measure in some}),
         points=measures_over_trials,
         points_options={

@@ -69,11 +69,11 @@ def power(
     the analysis. `smallest_effect` is the smallest effect of interest, in the unit of the effect: the samples then have this
     effect on average, and people's scatter as simulated. `test`: "t" or "wilcoxon" for one value of each person; "welch", "t"
     or "wilcoxon" (rank sum) for groups; at the level `alpha`, for an effect of either sign or, if `alternative` is "greater" or
-    "less", for one above or below zero alone. "bayes" finds the effect where the Bayes factor
-    of the t test exceeds `bayes_factor`. A `sequential` study is tested after each `n`, and ends at the first test that finds the
-    effect, at levels that keep `alpha` (or whose Bayes factor is below 1 / `bayes_factor`): see `looks` of the result. `draws`
-    samples are made for each n. People who come from `laboratories` show the power in a median one, and in one of the tenth
-    percentile. Raises Error.
+    "less", for one above or below zero alone. "bayes" finds the effect where the Bayes factor of the t test exceeds
+    `bayes_factor`. A `sequential` study is tested after each `n`, and ends at the first test that finds the effect, at levels
+    that keep `alpha` (or whose Bayes factor is below 1 / `bayes_factor`): see `looks` of the result. `draws` samples are made
+    for each n. People who come from `laboratories` show the power in a median one, and in one of the tenth percentile. Raises
+    Error.
 
     >>> import dihaptic as dh
     >>> pool = dh.rehearse("experiments/first-trials.yaml", 12, out=f"{folder}/pool", progress=False)
@@ -100,7 +100,7 @@ def power(
         raise error("must be a number other than zero", remedy, key="smallest_effect")
     name, _ = test_named(test, asked.is_between)
     if alternative not in ALTERNATIVES:
-        raise NotThere(alternative, "is no alternative", list(ALTERNATIVES), f"There are {', '.join(ALTERNATIVES)}.")
+        raise NotThere(alternative, "is not an alternative", list(ALTERNATIVES), f"There are {', '.join(ALTERNATIVES)}.")
     if name == "bayes" and alternative != "two-sided":
         raise error("has no side with the test bayes", "Leave it out, or use the test t.", key="alternative")
     folder = Path(path)

@@ -37,8 +37,8 @@ class Effect:
     A term is `mean`, `median` or `sd` of a column of a table, over the rows that have the named values in other columns:
     `mean(static_grip_N, mass_g=200, surface="fine sandpaper")`. Terms and numbers are joined by + - * / and parentheses.
     The column is taken from the first of these tables that has it: trials, lifts, fits, thresholds, adaptation, corrections,
-    phases and episodes; `table=` names another one. For trials and lifts, the last attempt at each trial is used, without practice and
-    catch trials, unless the term names `kind` or `attempt`. Terms of two groups make an effect between people, which is the
+    phases and episodes; `table=` names another one. For trials and lifts, the last attempt at each trial is used, without
+    practice and catch trials, unless the term names `kind` or `attempt`. Terms of two groups make an effect between people, which is the
     left side minus the right side: `mean(late, group=a) - mean(late, group=b)`. Raises Error when it cannot be understood.
 
     >>> from dihaptic import figures

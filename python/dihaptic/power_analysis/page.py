@@ -166,7 +166,7 @@ def write_page(result: Power, folder: Path) -> Path:
     smallest["power"] = [f"{100 * power:.0f} %" for power in smallest["power"]]
     caption = (
         "The smallest n with this power, and those at which the upper and the lower end of its interval from the number of "
-        "samples reach it. The uncertainty due to the size of the pool is larger: see the column \"with other pools\"."
+        "samples reach it. The uncertainty due to the size of the pool is larger: see the column 'with other pools'."
     )
     page.table(smallest.astype(object).where(smallest.notna(), None), caption)
     page.heading("What these numbers cannot tell you")

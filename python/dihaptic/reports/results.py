@@ -29,7 +29,7 @@ _MOST_MEANS = 6
 _APART = ("group", "round", "study_session", "perturbation")
 #: A reader is warned if more than this share of the trials was repeated.
 _MANY_REPEATED = 0.1
-#: A reader is warned if forces were limited in at least this share of the attempts.
+#: A reader is warned if forces were limited in at least this share of the trials.
 _MANY_LIMITED = 0.05
 
 
@@ -54,10 +54,10 @@ def warnings_of(data: Data, told: dict[str, Any]) -> list[str]:
             f"These people come from {several} laboratories. Means and intervals are over people, as if they came from one: a "
             "further laboratory may lie outside the intervals."
         )
-    out += [text for text in (_missed_solves(data), _limited_forces(data)) if text]
+    trials, repeated = _repeated(data)
+    out += [text for text in (_missed_solves(data), _limited_forces(data, trials)) if text]
     if data.has("adaptation") and (text := shared_windows(data.table("adaptation"))):
         out.append(text)
-    trials, repeated = _repeated(data)
     if repeated > _MANY_REPEATED * trials:
         share = _percent(repeated, trials)
         out.append(f"{repeated} of {trials} trials ({share}) were repeated: Quality of the data shows after which outcomes.")
@@ -293,18 +293,17 @@ def _missed_solves(data: Data) -> str:
     )
 
 
-def _limited_forces(data: Data) -> str:
-    """A sentence about trials in which a device gave less force than was asked for, if these are many."""
+def _limited_forces(data: Data, trials: int) -> str:
+    """A sentence about trials in which a device gave less force than was asked for, if these are many of all `trials`."""
     limited = 0
     for sitting in data.sittings:
         if "events" in sitting.session.tables:
             events = sitting.session.table("events")
             limited += events.loc[(events["event"] == "limit") & events["detail"].isin(OF_CUT_FORCE), "trial"].nunique()
-    trials = len(data.table("trials")) if data.has("trials") else 0
     if not trials or limited < _MANY_LIMITED * trials:
         return ""
     return (
-        f"In {limited} of {trials} attempts a device gave less force than was asked for: less was felt there than the contact "
+        f"In {limited} of {trials} trials a device gave less force than was asked for: less was felt there than the contact "
         "forces, such as normal_force, which are the model's. Quality of the data shows in which sessions."
     )
 

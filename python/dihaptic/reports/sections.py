@@ -282,7 +282,7 @@ def _lifts(page: Page, data: Data) -> None:
     _means(page, data, measures_of_lifts(data), "lifts")
     over = "Medians over lifts" if len(data.people) == 1 else "Means over people of each person's median"
     table = pd.DataFrame(rows).set_index("median of").T.rename_axis(columns=None).reset_index(names="median of")
-    caption = f"{over}, practice and catch trials included; an incomplete lift counts toward every measure that could be computed for it."
+    caption = f"{over}, practice and catch trials included; an incomplete lift counts toward every measure that it has."
     if "safety margin" in list(table["median of"]):
         caption += " Safety margin: the share of the static grip that exceeds the least grip without slip."
     if why := why_not_drawn(data):

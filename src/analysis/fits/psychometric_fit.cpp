@@ -280,8 +280,9 @@ PsychometricFit fit_psychometric(std::span<const LevelCount> counts,
     check(counts, settings);
     const Search search(counts, settings);
     const Minimum best = search.run();
+    const bool flat = search.may_be_flat(best);
     return {search.function(best.x), best.value, 2 * (best.value - saturated(counts)),
-            search.may_be_steep(best) || search.may_be_flat(best), search.may_be_flat(best)};
+            flat || search.may_be_steep(best), flat};
 }
 
 PsychometricIntervals profile_intervals(std::span<const LevelCount> counts,

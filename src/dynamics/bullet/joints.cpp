@@ -315,6 +315,13 @@ Books::Exchange Joints::exchange(size_t i, double h, const Books::Meeting& meeti
     return out;
 }
 
+namespace {
+
+/// The largest speed at which a body is pulled back along the joint's coordinate.
+double most_pull(const scene::Joint& spec) {
+    return spec.slides() ? kPull : kTurnPull;
+}
+
 /// The speed at which a coordinate must change so that it is not `off` from a stop at the end of
 /// the step [m/s], [rad/s]. The part of `off` that is there at the start, `off_now`, is undone
 /// slowly; the rest is due to the turning of the joint's direction in the step, however fast that
@@ -323,6 +330,8 @@ double speed_to_stop(double off, double off_now, double h, double pull) {
     if (std::abs(off) <= pull * h) return off / h;
     return std::clamp(off_now / h, -pull, pull) + (off - off_now) / h;
 }
+
+}  // namespace
 
 /// Sets the rows of a joint coordinate, which is now `q_now` and would be q at the end of a step
 /// without motion: a spring with its damper, dry friction, and the nearer stop. Returns the change
@@ -345,14 +354,15 @@ double Joints::ask_of_coordinate(size_t i, double q, double q_now, double h,
     row.low[kStop] = -kNone;
     row.high[kStop] = kNone;
     row.compliance[kStop] = 1 / (h * h * (spec.slides() ? kStiffness : kTurnStiffness));
-    const double pull = spec.slides() ? kPull : kTurnPull;
-    const double bias = speed_to_stop(q - *spec.low, q_now - *spec.low, h, pull);
+    const double bias = speed_to_stop(q - *spec.low, q_now - *spec.low, h, most_pull(spec));
     return std::abs(bias - std::exchange(row.bias[kStop], bias));
 }
 
+/// Sets row k: the nearer one of a coordinate's stops, or none. Returns as ask_of_coordinate()
+/// does.
 double Joints::ask_of_stop(const scene::Joint& spec, double q, double q_now, double h, int k,
                            ProblemJoint& row) noexcept {
-    const double pull = spec.slides() ? kPull : kTurnPull;
+    const double pull = most_pull(spec);
     const double above = spec.low ? q - *spec.low : kNone;
     const double below = spec.high ? *spec.high - q : kNone;
     row.low[k] = below < above ? -kNone : 0;

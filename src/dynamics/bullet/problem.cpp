@@ -53,6 +53,11 @@ double mean_height(const btPersistentManifold& manifold) {
     return sum / std::max(1, manifold.getNumContacts());
 }
 
+/// A point, moved along n_W to a height in this direction.
+Vec3 at_height(const Vec3& p_W, double height, const Vec3& n_W) {
+    return p_W + (height - n_W.dot(p_W)) * n_W;
+}
+
 /// The distance of the points at which friction turns the two bodies. If they touch at one point,
 /// each is turned at its own surface, where the other one arrives in the step, so that a ball that
 /// lands gets its spin, whatever gap remains. Flat faces share a plane (mean_height).
@@ -184,7 +189,7 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
             out.a = index(a);
             out.b = index(b);
             const Vec3 n_W = from_bullet(point.m_normalWorldOnB);
-            const Vec3 p_WC = middle(point) + (height - n_W.dot(middle(point))) * n_W;
+            const Vec3 p_WC = at_height(middle(point), height, n_W);
             carried(point).acts_at_W = p_WC;
             const double gap = gap_of(point);
             out.R_WC = contact_frame(normal_of(point));

@@ -164,7 +164,7 @@ def guesses_in_words(data: Data, procedures: list[Procedure]) -> str:
 
 
 def people_with_thresholds(data: Data, procedures: list[Procedure]) -> pd.Series:
-    """How many people of each group have a threshold within the levels shown, for each procedure."""
+    """How many people of each group have a threshold that is not a guess, for each procedure."""
     fits = [fits_of(data, each).assign(procedure=each.title) for each in procedures]
     known = pd.concat([each[~each["guess"].astype(bool)] for each in fits if len(each)] or [pd.DataFrame()])
     return known.groupby(["procedure", "group"])["person"].nunique() if len(known) else pd.Series(dtype=int)
